@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The eye: a camera with a pupil, and the spectral filter in front of it."""
+
+import math
+
+import bpy
+
+from ..model.device_parts import EyeSpec
+from . import meshes
+from .materials import filter_material
+from .spectral import SpectralScene
+
+_FILTER_DISTANCE = 0.5
+_F_NUMBER = 0.2
+_FAR = 1e7
+
+
+def add_eye(
+    collection: bpy.types.Collection,
+    spec: EyeSpec,
+    spectral: SpectralScene,
+    parent: bpy.types.Object | None = None,
+) -> bpy.types.Object:
+    """Add a camera that is an eye: it looks along -z of its parent, with y up.
+
+    Args:
+        collection: Where it is linked.
+        spec: Pupil, focus, field and place; 1 scene unit is 1 mm.
+        spectral: The sampled spectrum of the scene.
+        parent: Object whose frame the place is in.
+
+    Returns:
+        The camera object; the filter is its child.
+    """
+    camera = bpy.data.cameras.new("Eye")
+    set_pupil(camera, spec)
+    eye = bpy.data.objects.new("Eye", camera)
+    eye.location = spec.position_mm
+    eye.parent = parent
+    collection.objects.link(eye)
+    _add_filter(collection, eye, spec, spectral)
+    return eye
+
+
+def set_pupil(camera: bpy.types.Camera, spec: EyeSpec) -> None:
+    """Give a camera the field, the pupil and the focus of an eye.
+
+    Blender's aperture is focal length over f-number. The focal length is chosen for the pupil, in
+    the camera's own millimetres, and the sensor for the field.
+    """
+    # aperture radius (scene units) = focal length (mm) * 1e-3 / (2 * f-number)
+    camera.dof.aperture_fstop = _F_NUMBER
+    camera.lens = spec.pupil_diameter_mm * _F_NUMBER * 1e3
+    camera.sensor_fit = "HORIZONTAL"
+    camera.sensor_width = 2.0 * camera.lens * math.tan(math.radians(spec.field_deg) / 2.0)
+    camera.dof.use_dof = True
+    camera.dof.focus_distance = _FAR if spec.focus_mm is None else spec.focus_mm
+    camera.clip_start = 1e-3
+    camera.clip_end = _FAR
+
+
+def _add_filter(
+    collection: bpy.types.Collection,
+    eye: bpy.types.Object,
+    spec: EyeSpec,
+    spectral: SpectralScene,
+) -> None:
+    # Square and wide enough for a picture up to twice as high as it is wide.
+    half = spec.pupil_diameter_mm / 2.0
+    half += 2.5 * _FILTER_DISTANCE * math.tan(math.radians(spec.field_deg) / 2.0)
+    screen = meshes.add(
+        collection,
+        meshes.rectangle("Spectral Filter", 2.0 * half, 2.0 * half),
+        filter_material(spectral),
+        parent=eye,
+        location=(0.0, 0.0, -_FILTER_DISTANCE),
+    )
+    screen.visible_diffuse = screen.visible_glossy = screen.visible_transmission = False
+    screen.visible_shadow = screen.visible_volume_scatter = False
+    screen.hide_select = True
+    screen.display_type = "WIRE"

@@ -1,0 +1,153 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials of optical elements."""
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.colour import white_balance
+from ..core.spectrum import Spectrum
+from ..model.hologram import HologramSpec
+from ..model.medium import MediumRef
+from ..shading.hologram import Frame, hologram_shader, hologram_sockets
+from ..shading.medium import medium_sockets
+from ..shading.source import specialised
+from ..shading.wavelength import display_shader, filter_shader
+from . import nodes
+from .spectral import SpectralScene, use_wavelength
+
+
+def hologram_material(
+    spec: HologramSpec,
+    spectral: SpectralScene,
+    frame: Frame | None = None,
+    units_per_mm: float = 1.0,
+) -> bpy.types.Material:
+    """The material of a hologram.
+
+    Args:
+        spec: The hologram.
+        spectral: The sampled spectrum of the scene.
+        frame: Where the recording's frame lies in the object; by default it is the object's own.
+        units_per_mm: Scene units in one mm.
+
+    Returns:
+        A new material.
+    """
+    values = hologram_sockets(spec, frame or Frame(), units_per_mm)
+    material = nodes.script_material(spec.name, hologram_shader(spec), values)
+    use_wavelength(material, spectral.group)
+    return material
+
+
+def dielectric_material(
+    name: str, inside: MediumRef, outside: MediumRef, spectral: SpectralScene
+) -> bpy.types.Material:
+    """The boundary of a dispersive body; the normals of its mesh point outward.
+
+    Args:
+        name: Name of the material.
+        inside: Medium behind the normals.
+        outside: Medium before them.
+        spectral: The sampled spectrum of the scene.
+
+    Returns:
+        A new material.
+    """
+    values = medium_sockets("inside", inside) | medium_sockets("outside", outside)
+    material = nodes.script_material(name, specialised("hoe_dielectric", {}), values)
+    use_wavelength(material, spectral.group)
+    return material
+
+
+def thin_lens_material(focal_length: float) -> bpy.types.Material:
+    """An ideal thin lens in the plane z = 0 of its object.
+
+    Args:
+        focal_length: In scene units.
+
+    Returns:
+        A new material.
+    """
+    return nodes.script_material(
+        "Ideal Lens", specialised("hoe_thin_lens", {}), {"focal_length": focal_length}
+    )
+
+
+def display_material(
+    image: bpy.types.Image,
+    primaries: tuple[Spectrum, Spectrum, Spectrum],
+    white: str,
+    luminance: float,
+    spectral: SpectralScene,
+) -> bpy.types.Material:
+    """A picture that gives light, on the front of its mesh, by its UV map.
+
+    Args:
+        image: Its colours are the drives of the primaries.
+        primaries: Spectra of red, green and blue, the first three emitters of ``spectral``.
+        white: White point that full drives give.
+        luminance: Luminance of white in scene units.
+        spectral: The sampled spectrum of the scene.
+
+    Returns:
+        A new material.
+
+    Raises:
+        SpecError: The white lies outside what the primaries can mix.
+    """
+    shares = white_balance(primaries, white)
+    preview = spectral.sampling.mean_rgb(spectral.tables.emission[:3]) * shares[:, None]
+    values: dict[str, nodes.SocketValue] = {
+        f"preview_{name}": tuple(rgb)
+        for name, rgb in zip(("red", "green", "blue"), preview.tolist(), strict=True)
+    }
+    values["white_luminance"] = luminance
+    source = display_shader(spectral.tables.emission[:3] * shares[:, None])
+    material = nodes.script_material("Display", source, values)
+    tree = nodes.tree_of(material)
+    texture = tree.nodes.new("ShaderNodeTexImage")
+    texture.image = image
+    texture.interpolation = "Linear"
+    texture.extension = "CLIP"
+    texture.location = (-640.0, 0.0)
+    display = next(node for node in tree.nodes if node.bl_idname == "ShaderNodeScript")
+    tree.links.new(texture.outputs["Color"], nodes.input_socket(display, "image"))
+    return material
+
+
+def filter_material(spectral: SpectralScene) -> bpy.types.Material:
+    """The eye's response, for the surface in front of the camera."""
+    source = filter_shader(spectral.tables.filter_rgb)
+    return nodes.script_material("Spectral Filter", source, {})
+
+
+def absorber_material(name: str = "Black") -> bpy.types.Material:
+    """A perfectly black surface."""
+    material = bpy.data.materials.new(name)
+    tree = nodes.new_tree(material)
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    black = tree.nodes.new("ShaderNodeBsdfDiffuse")
+    black.inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+    tree.links.new(black.outputs["BSDF"], output.inputs["Surface"])
+    return material
+
+
+def picture(name: str, pixels: NDArray[np.float32]) -> bpy.types.Image:
+    """A packed image of linear drive values.
+
+    Args:
+        name: Name of the datablock.
+        pixels: Values 0 to 1, shape ``(height, width, 3)``, top row first.
+
+    Returns:
+        The image; it travels inside the .blend.
+    """
+    height, width, _ = pixels.shape
+    image = bpy.data.images.new(name, width, height, float_buffer=True, is_data=True)
+    rgba = np.ones((height, width, 4), dtype=np.float32)
+    rgba[..., :3] = pixels[::-1]
+    image.pixels.foreach_set(rgba.ravel())
+    image.pack()
+    return image

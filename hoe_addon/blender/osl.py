@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compile OSL inside Blender, and say plainly where that cannot be done."""
+
+import contextlib
+import os
+import re
+import tempfile
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import bpy
+
+from ..core.errors import MissingOslError, ShaderCompileError
+from ..shading.source import ShaderSource
+
+_DEVICES_WITH_OSL = ("CPU", "OPTIX")
+
+
+def has_osl() -> bool:
+    """Whether this Blender's Cycles was built with Open Shading Language."""
+    try:
+        import _cycles
+    except ImportError:
+        return False
+    return bool(_cycles.with_osl)
+
+
+def require_osl(scene: bpy.types.Scene | None = None) -> None:
+    """Refuse to go on where holograms cannot be rendered.
+
+    Args:
+        scene: When given, its render device is looked at too.
+
+    Raises:
+        MissingOslError: No OSL in this build, or the device cannot run it.
+    """
+    if not has_osl():
+        raise MissingOslError(
+            f"this Blender ({bpy.app.version_string}) was built without Open Shading Language, "
+            "which holograms need; use the official build from blender.org or the bpy module"
+        )
+    if scene is not None and scene.cycles.device == "GPU":
+        preferences = bpy.context.preferences.addons["cycles"].preferences
+        kind = preferences.compute_device_type
+        if kind not in _DEVICES_WITH_OSL:
+            raise MissingOslError(
+                f"the render device {kind} cannot run Open Shading Language; choose CPU, or OptiX "
+                "in the preferences"
+            )
+
+
+@cache
+def compiled(source: ShaderSource) -> str:
+    """Compile a text; equal texts are compiled once per process.
+
+    Args:
+        source: The flat text.
+
+    Returns:
+        The bytecode (.oso text).
+
+    Raises:
+        MissingOslError: This build has no OSL.
+        ShaderCompileError: With the first line that the compiler complains about.
+    """
+    require_osl()
+    import _cycles
+
+    with tempfile.TemporaryDirectory(prefix="hoe_osl_") as folder:
+        text, bytecode = Path(folder) / f"{source.name}.osl", Path(folder) / f"{source.name}.oso"
+        text.write_text(source.text, encoding="utf-8", newline="\n")
+        with captured_stderr() as messages:
+            done = _cycles.osl_compile(str(text), str(bytecode))
+        if not done:
+            raise ShaderCompileError(f"{source.name}.osl: {_first_error(messages, folder)}")
+        return bytecode.read_text(encoding="utf-8")
+
+
+@contextlib.contextmanager
+def captured_stderr() -> Iterator[list[str]]:
+    """Collect what C code writes to the process's stderr; the list is filled at the end."""
+    lines: list[str] = []
+    with tempfile.TemporaryFile(mode="w+", errors="replace") as catcher:
+        kept = os.dup(2)
+        os.dup2(catcher.fileno(), 2)
+        try:
+            yield lines
+        finally:
+            os.dup2(kept, 2)
+            os.close(kept)
+            catcher.seek(0)
+            lines.extend(catcher.read().splitlines())
+
+
+def _first_error(messages: list[str], folder: str) -> str:
+    for line in messages:
+        if re.search(r"error", line, re.IGNORECASE):
+            return line.replace(f"{folder}{os.sep}", "").strip()
+    return "the compiler gave no reason"

@@ -1,0 +1,211 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Exact rays through the shipped hologram shader in a real Cycles render, and what comes back.
+
+Each ray is one pixel row. A camera shader starts it, a rolling shutter gives it its wavelength on
+ray time, the hologram diffracts it, and the world answers with the direction in which it arrived.
+"""
+
+import contextlib
+from collections.abc import Iterator
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.orders import Branch
+from ..core.ray_law import Status
+from ..model.hologram import HologramSpec
+from ..model.rays import RayTable, TraceResult
+from ..shading.hologram import (
+    Frame,
+    hologram_sockets,
+    one_order_shader,
+    unit_efficiency_shader,
+)
+from ..shading.probe import MISSED, direction_world_shader, position_shader, ray_camera_shader
+from ..shading.source import ShaderSource
+from ..shading.wavelength import PLAIN_TIME, wavelength_shader
+from . import meshes, nodes
+from .osl import compiled, require_osl
+from .render import COMBINED, Progress, render_layers
+from .render_settings import carry_time_on_rows, set_up
+
+_ROWS = 1023
+"""Rays in one render. Odd, so that no row has the time 0.5, which means preview."""
+
+
+def trace_cycles(
+    spec: HologramSpec, rays: RayTable, progress: Progress | None = None
+) -> TraceResult:
+    """Send rays through a hologram in Cycles, each into the one branch that it names.
+
+    Args:
+        spec: The hologram, at z = 0, its normal along +z; 1 scene unit is 1 mm.
+        rays: Rays in its frame.
+        progress: Told after every render.
+
+    Returns:
+        What Cycles made of them, in float32 precision. The efficiency is that of the backward
+        walk, which equals that of the ray as light by reciprocity.
+
+    Raises:
+        MissingOslError: This Blender has no OSL.
+    """
+    require_osl()
+    count = len(rays)
+    result = TraceResult(
+        hit_mm=np.full((count, 3), np.nan),
+        direction=np.full((count, 3), np.nan),
+        status=np.full(count, int(Status.MISS)),
+        efficiency=np.full(count, np.nan),
+    )
+    parts = list(_parts(rays))
+    with _probe_scene(spec) as probe:
+        for done, (branch, chosen) in enumerate(parts, start=1):
+            probe.load(rays.part(chosen))
+            _read_back(probe, branch, chosen, result)
+            if progress is not None:
+                progress(done / len(parts))
+    return result
+
+
+def _parts(rays: RayTable) -> Iterator[tuple[Branch, NDArray[np.int64]]]:
+    """Rays of one branch, few enough for one render, by rising wavelength.
+
+    Ray time finds its wavelength by interpolation between neighbours: sorted, a rounding of time
+    moves the wavelength by next to nothing.
+    """
+    branches = sorted(set(zip(rays.order.tolist(), rays.reflected.tolist(), strict=True)))
+    for order, reflected in branches:
+        of_branch = np.flatnonzero((rays.order == order) & (rays.reflected == reflected))
+        of_branch = of_branch[np.argsort(rays.wavelength_nm[of_branch], kind="stable")]
+        for first in range(0, len(of_branch), _ROWS):
+            yield Branch(order, reflected=reflected), of_branch[first : first + _ROWS]
+
+
+def _read_back(
+    probe: "_Probe", branch: Branch, chosen: NDArray[np.int64], result: TraceResult
+) -> None:
+    answer = probe.render(unit_efficiency_shader(probe.spec, branch))
+    missed = answer[:, 0] == MISSED
+    length = np.linalg.norm(answer, axis=1)
+    gone = ~missed & (length == 0.0)
+    met = ~missed & ~gone
+    result.status[chosen] = np.select((missed, gone), (int(Status.MISS), int(Status.EVANESCENT)), 0)
+    result.direction[chosen[met]] = answer[met] / length[met, None]
+
+    weight = np.linalg.norm(probe.render(one_order_shader(probe.spec, branch)), axis=1)
+    result.efficiency[chosen[~missed]] = weight[~missed]
+
+    place = probe.render_positions()
+    result.hit_mm[chosen[~missed]] = place[~missed]
+
+
+class _Probe:
+    """A scene with one hologram and a camera that is a list of rays."""
+
+    def __init__(self, spec: HologramSpec, scene: bpy.types.Scene) -> None:
+        self.spec = spec
+        self.scene = scene
+        self._rows = 0
+        self._wavelengths = wavelength_shader((500.0, 500.0))
+        width, height = spec.surface.size_mm
+        self.element = meshes.add(scene.collection, meshes.rectangle("hoe probe", width, height))
+        self._positions = nodes.script_material("hoe probe", position_shader(), {})
+        self._camera = bpy.data.cameras.new("hoe probe")
+        self._camera.type = "CUSTOM"
+        self._camera.custom_mode = "INTERNAL"
+        # The near clip would skip an element closer than 0.1 mm to a ray's start.
+        self._camera.clip_start = 1e-6
+        scene.camera = bpy.data.objects.new("hoe probe", self._camera)
+        scene.collection.objects.link(scene.camera)
+        _set_world(scene, direction_world_shader())
+
+    def load(self, rays: RayTable) -> None:
+        """Take other rays; an even number is filled up by one that repeats the last."""
+        last = len(rays) - 1
+        self._rows = len(rays)
+        rows = np.arange(self._rows + (self._rows % 2 == 0)).clip(max=last)
+        # Blender's cameras look along -z; the rays are counted from the bottom row.
+        flip = np.array((1.0, 1.0, -1.0))
+        source = ray_camera_shader(
+            (rays.origin_mm * flip)[rows][::-1], (rays.direction * flip)[rows][::-1]
+        )
+        _set_camera_shader(self._camera, source)
+        # Row r from the top has the time (r + 1) / rows: the node with that number.
+        wavelength = rays.wavelength_nm[rows]
+        self._wavelengths = wavelength_shader(np.concatenate((wavelength[:1], wavelength)))
+        self.scene.render.resolution_x = 1
+        self.scene.render.resolution_y = len(rows)
+
+    def render(self, source: ShaderSource) -> NDArray[np.float64]:
+        """Directions times weights, one row a ray; zero where no order goes on."""
+        material = nodes.script_material("hoe probe", source, self._sockets(source))
+        _link_wavelength(material, self._wavelengths)
+        try:
+            return self._rendered(material)
+        finally:
+            bpy.data.materials.remove(material)
+
+    def render_positions(self) -> NDArray[np.float64]:
+        """Points where the rays hit the element, in mm."""
+        return self._rendered(self._positions)
+
+    def _rendered(self, material: bpy.types.Material) -> NDArray[np.float64]:
+        self.element.data.materials.clear()
+        self.element.data.materials.append(material)
+        picture = render_layers(self.scene, (COMBINED,))[COMBINED]
+        return picture[: self._rows, 0, :].astype(np.float64)
+
+    def _sockets(self, source: ShaderSource) -> dict[str, nodes.SocketValue]:
+        """The document's numbers for those sockets that this specialisation has."""
+        present = nodes.socket_names(source)
+        values = hologram_sockets(self.spec, Frame())
+        return {name: value for name, value in values.items() if name in present}
+
+
+@contextlib.contextmanager
+def _probe_scene(spec: HologramSpec) -> Iterator[_Probe]:
+    """A scene of its own, removed with all that was made for it."""
+    before = {kind: set(getattr(bpy.data, kind)) for kind in _DATA_KINDS}
+    scene = bpy.data.scenes.new("hoe probe")
+    try:
+        set_up(scene, samples=1, seed=0, spectral=True, max_bounces=8)
+        carry_time_on_rows(scene)
+        scene.cycles.pixel_filter_type = "BOX"
+        yield _Probe(spec, scene)
+    finally:
+        bpy.data.scenes.remove(scene)
+        for kind, known in before.items():
+            for item in set(getattr(bpy.data, kind)) - known:
+                getattr(bpy.data, kind).remove(item)
+
+
+_DATA_KINDS = ("objects", "meshes", "cameras", "materials", "worlds", "texts")
+
+
+def _set_camera_shader(camera: bpy.types.Camera, source: ShaderSource) -> None:
+    camera.custom_bytecode = compiled(source)
+    camera.custom_bytecode_hash = source.digest
+
+
+def _set_world(scene: bpy.types.Scene, source: ShaderSource) -> None:
+    world = bpy.data.worlds.new("hoe probe")
+    scene.world = world
+    tree = nodes.new_tree(world)
+    output = tree.nodes.new("ShaderNodeOutputWorld")
+    node = nodes.add_script_node(tree, source, {})
+    tree.links.new(nodes.output_socket(node, "result"), output.inputs["Surface"])
+    # Sampling the world by its brightness would evaluate directions as light.
+    world.cycles.sampling_method = "NONE"
+
+
+def _link_wavelength(material: bpy.types.Material, source: ShaderSource) -> None:
+    tree = nodes.tree_of(material)
+    wavelength = nodes.add_script_node(tree, source, PLAIN_TIME)
+    hologram = next(n for n in tree.nodes if "wavelength_nm" in {s.identifier for s in n.inputs})
+    tree.links.new(
+        nodes.output_socket(wavelength, "wavelength_nm"),
+        nodes.input_socket(hologram, "wavelength_nm"),
+    )

@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``trace``: rays through one hologram, in numpy or through the shipped shader in Cycles."""
+
+import argparse
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ..model.hologram import HologramSpec
+    from ..model.rays import RayTable, TraceResult
+
+_DESCRIPTION = """\
+Send rays through one hologram at z = 0, its normal along +z. RAYS.csv has the columns x_mm, y_mm,
+z_mm, l, m, n, wavelength_nm, order, side (T or R); a ray with n > 0 comes from the back. Directions
+may have any length but zero. OUT.csv adds hit_x_mm, hit_y_mm, out_l, out_m, out_n, status (ok,
+evanescent, miss) and efficiency; what does not exist is nan. Any order may be asked for: the
+efficiency is the value of the model, the document's "orders" only limit what a picture traces.
+"""
+
+
+def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
+    """Add the command to the parser.
+
+    Args:
+        subparsers: Where the commands are.
+    """
+    parser = subparsers.add_parser(
+        "trace", help="directions of rays through one hologram", description=_DESCRIPTION
+    )
+    add = parser.add_argument
+    add("hologram", metavar="HOLOGRAM.json", help="hologram, schema 1")
+    add("rays", metavar="RAYS.csv", help="rays to send")
+    add("--out", metavar="OUT.csv", required=True, help="file to write")
+    add(
+        "--engine",
+        choices=("numpy", "cycles"),
+        default="numpy",
+        help="numpy (float64, the default) or the shipped shader in a Cycles render (float32)",
+    )
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Trace the rays and write what became of them.
+
+    Args:
+        args: Arguments as registered.
+
+    Returns:
+        Exit code.
+    """
+    from ..model.document import load_hologram
+    from ..model.reading import naming
+    from .output import replacing, write_pieces
+    from .ray_files import ray_table, read_rays, result_lines
+
+    spec = load_hologram(args.hologram)
+    rows = read_rays(args.rays)
+    with replacing(args.out) as temporary:
+        with naming(args.hologram):
+            result = _engine(args.engine)(spec, ray_table(rows))
+        write_pieces(args.out, temporary, result_lines(rows, result))
+    return 0
+
+
+def _engine(name: str) -> "Callable[[HologramSpec, RayTable], TraceResult]":
+    if name == "cycles":
+        return _trace_cycles
+    from ..model.evaluate import trace
+
+    return trace
+
+
+def _trace_cycles(spec: "HologramSpec", rays: "RayTable") -> "TraceResult":
+    from tqdm import tqdm
+
+    from ..blender.trace import trace_cycles
+
+    with tqdm(total=1.0, desc="cycles", disable=None, bar_format="{l_bar}{bar}| {elapsed}") as bar:
+
+        def show(done: float) -> None:
+            bar.update(done - bar.n)
+
+        return trace_cycles(spec, rays, show)

@@ -1,0 +1,253 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The document of a light-guide device: guide, holograms on it, display, lens, eye, room.
+
+Frame: x right, y up, z toward the viewer, in mm. The eye's pupil is at the origin and looks along
+-z. The guide's eye-side face lies at z = -relief, its world-side face one thickness beyond.
+"""
+
+from typing import Literal
+
+from msgspec import Struct
+
+from . import field_kinds, fields, medium
+from .device_parts import (
+    DisplaySpec,
+    EyeboxSpec,
+    EyeSpec,
+    LensSpec,
+    RenderSpec,
+    RoomSpec,
+    SourceSpec,
+)
+from .efficiency import ConstantSpec, EfficiencySpec, KinoformSpec, settle_orders
+from .field_error import FieldError
+from .hologram import HologramSpec, Orders, PlaneSurface, SideMedia
+from .medium import MediumRef
+from .recording import RecordingSpec
+
+_EDGE_SLACK_MM = 1e-9
+"""Patches may touch each other and the rim; this allows for the rounding of their corners."""
+
+
+class GuideSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A plane-parallel plate in front of the eye.
+
+    Attributes:
+        medium: What it is made of.
+        outside: What is around it.
+        thickness_mm: Distance of its two faces.
+        size_mm: Width and height.
+        center_mm: Centre of the faces, x and y.
+        relief_mm: Distance from the pupil plane to the eye-side face.
+    """
+
+    medium: MediumRef
+    outside: MediumRef = "air"
+    thickness_mm: float
+    size_mm: tuple[float, float]
+    center_mm: tuple[float, float] = (0.0, 0.0)
+    relief_mm: float
+
+    def __post_init__(self) -> None:
+        """Check media and sizes."""
+        medium.check(self, "medium")
+        medium.check(self, "outside")
+        fields.number(self, "thickness_mm", above=0.0)
+        fields.vector(self, "size_mm", 2, above=0.0)
+        fields.vector(self, "center_mm", 2)
+        fields.number(self, "relief_mm", above=0.0)
+
+    def face_z_mm(self, face: str) -> float:
+        """Place of a face on the z axis.
+
+        Args:
+            face: ``"eye"`` or ``"world"``.
+
+        Returns:
+            z in mm, in the frame of the device.
+        """
+        return -self.relief_mm if face == "eye" else -self.relief_mm - self.thickness_mm
+
+
+class PatchSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A hologram on one face of the guide.
+
+    Its own frame has z along the outward normal of its face: on the eye side the axes are those
+    of the device, on the world side they are turned by 180 degrees about y. The recording is
+    given in that frame; the guide is behind it (z < 0), the outside before it.
+
+    Attributes:
+        name: Name of the patch, once in a device.
+        face: Face of the guide that it lies on.
+        center_mm: Its centre, x and y, in the frame of the device.
+        size_mm: Width and height.
+        recording: The two waves that it was made with.
+        efficiency: How much light each order gets.
+        orders: Orders that are traced; those of the table where it is left out.
+    """
+
+    name: str
+    face: Literal["eye", "world"]
+    center_mm: tuple[float, float]
+    size_mm: tuple[float, float]
+    recording: RecordingSpec
+    efficiency: EfficiencySpec
+    orders: Orders = ()
+
+    def __post_init__(self) -> None:
+        """Check the patch alone."""
+        field_kinds.text(self, "name")
+        field_kinds.choice(self, "face", ("eye", "world"))
+        fields.vector(self, "center_mm", 2)
+        fields.vector(self, "size_mm", 2, above=0.0)
+        field_kinds.instance(self, "recording", RecordingSpec)
+        field_kinds.instance(self, "efficiency", KinoformSpec, ConstantSpec)
+        self.recording.check_clear_of(self.size_mm)
+        settle_orders(self, self.efficiency)
+
+    def hologram(self, guide: GuideSpec) -> HologramSpec:
+        """Give the patch as a hologram of its own.
+
+        Args:
+            guide: The guide that it lies on.
+
+        Returns:
+            The hologram, in the patch's own frame.
+        """
+        return HologramSpec(
+            name=self.name,
+            surface=PlaneSurface(size_mm=self.size_mm),
+            media=SideMedia(back=guide.medium, front=guide.outside),
+            recording=self.recording,
+            efficiency=self.efficiency,
+            orders=self.orders,
+        )
+
+    def overlaps(self, other: "PatchSpec") -> bool:
+        """Tell whether two patches cover the same ground.
+
+        Args:
+            other: Another patch.
+
+        Returns:
+            True if both lie on the same face and share more than an edge.
+        """
+        return self.face == other.face and all(
+            abs(self.center_mm[axis] - other.center_mm[axis])
+            < (self.size_mm[axis] + other.size_mm[axis]) / 2.0 - _EDGE_SLACK_MM
+            for axis in (0, 1)
+        )
+
+
+class LightGuideSpec(
+    Struct,
+    frozen=True,
+    forbid_unknown_fields=True,
+    kw_only=True,
+    tag_field="kind",
+    tag="light_guide",
+):
+    """A holographic AR device around one light guide.
+
+    Attributes:
+        schema: Version of the document's format.
+        name: Short name, as the preset's file.
+        title: One line for lists.
+        description: What it shows, and where its numbers come from.
+        guide: The plate.
+        holograms: The patches on it.
+        source: Where the display sends its light in.
+        display: The picture, in the focal plane of the lens.
+        lens: The collimating lens.
+        eye: The eye that looks.
+        eyebox: Places of the pupil for a survey.
+        room: What is seen through the guide.
+        render: How the picture is made.
+    """
+
+    schema: Literal[1] = 1
+    name: str
+    title: str
+    description: str = ""
+    guide: GuideSpec
+    holograms: tuple[PatchSpec, ...]
+    source: SourceSpec
+    display: DisplaySpec
+    lens: LensSpec
+    eye: EyeSpec
+    eyebox: EyeboxSpec
+    room: RoomSpec
+    render: RenderSpec
+
+    def __post_init__(self) -> None:
+        """Check what the parts cannot check alone."""
+        field_kinds.text(self, "name")
+        field_kinds.text(self, "title")
+        field_kinds.text(self, "description", empty=True)
+        for name, kind in _PARTS.items():
+            field_kinds.instance(self, name, kind)
+        if not self.holograms:
+            raise FieldError("holograms", "must hold at least one hologram", self.holograms)
+        for place, patch in enumerate(self.holograms):
+            self._check_patch(place, patch)
+        names = [patch.name for patch in self.holograms]
+        if self.source.patch not in names:
+            rule = f"must name a hologram ({', '.join(names)})"
+            raise FieldError("source.patch", rule, self.source.patch)
+
+    def _check_patch(self, place: int, patch: PatchSpec) -> None:
+        where = f"holograms[{place}]"
+        for axis, label in enumerate("xy"):
+            reach = (
+                abs(patch.center_mm[axis] - self.guide.center_mm[axis]) + patch.size_mm[axis] / 2
+            )
+            if reach > self.guide.size_mm[axis] / 2 + _EDGE_SLACK_MM:
+                rule = f"must keep the patch on the guide in {label}"
+                raise FieldError(f"{where}.center_mm[{axis}]", rule, patch.center_mm[axis])
+        for other in self.holograms[:place]:
+            if other.name == patch.name:
+                raise FieldError(f"{where}.name", "must be used once", patch.name)
+            if other.overlaps(patch):
+                rule = f"must keep the patch clear of {other.name}"
+                raise FieldError(f"{where}.center_mm", rule, patch.center_mm)
+        try:
+            patch.hologram(self.guide)
+        except FieldError as error:
+            # Only the guide's media are new here; the patch has checked the rest itself.
+            raise error.moved(_GUIDE_FIELDS[error.field]) from error
+
+    def patch(self, name: str) -> PatchSpec:
+        """Find a hologram by its name.
+
+        Args:
+            name: Name of the patch.
+
+        Returns:
+            The patch.
+
+        Raises:
+            FieldError: If there is none; the message lists the names.
+        """
+        for patch in self.holograms:
+            if patch.name == name:
+                return patch
+        names = ", ".join(patch.name for patch in self.holograms)
+        raise FieldError("holograms", f"must name a hologram ({names})", name)
+
+
+_GUIDE_FIELDS = {"media.back": "guide.medium", "media.front": "guide.outside"}
+
+_PARTS = {
+    "guide": GuideSpec,
+    "source": SourceSpec,
+    "display": DisplaySpec,
+    "lens": LensSpec,
+    "eye": EyeSpec,
+    "eyebox": EyeboxSpec,
+    "room": RoomSpec,
+    "render": RenderSpec,
+}
+
+type DeviceSpec = LightGuideSpec
+"""Any device; more kinds join here, told apart by ``kind``."""

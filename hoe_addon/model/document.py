@@ -1,0 +1,235 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reading and writing whole documents: holograms and devices, with the version of their format."""
+
+import json
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any, cast
+
+import msgspec
+
+from ..core.errors import SpecError
+from ..resources import preset_paths
+from .device import DeviceSpec, LightGuideSpec
+from .device_parts import BUILT_IN_IMAGES, DisplaySpec
+from .field_error import FieldError, show
+from .hologram import HologramSpec
+from .override import override
+from .plain import plain
+from .reading import naming, parse_json, read_text, to_spec
+
+SCHEMA = 1
+"""Version of the format that this program writes."""
+
+type Document = dict[str, Any]
+type Migration = Callable[[Document], Document]
+
+_MIGRATIONS: Mapping[int, Migration] = {}
+"""For each older version, the step to the next one; every format change adds one."""
+
+_DEVICES: Mapping[str, type[DeviceSpec]] = {"light_guide": LightGuideSpec}
+_LINE = 80
+_INDENT = "  "
+
+
+def hologram_from(document: object) -> HologramSpec:
+    """Make a hologram from plain data.
+
+    Args:
+        document: Objects, lists and numbers, as JSON gives them.
+
+    Returns:
+        The valid hologram.
+
+    Raises:
+        SpecError: With the path of the field, the rule, and the value.
+    """
+    current = _current(document)
+    surface = current.get("surface")
+    if isinstance(surface, dict) and "shape" not in surface:
+        raise SpecError("surface.shape: is missing")
+    return to_spec(current, HologramSpec)
+
+
+def device_from(document: object) -> DeviceSpec:
+    """Make a device from plain data.
+
+    Args:
+        document: Objects, lists and numbers, as JSON gives them.
+
+    Returns:
+        The valid device.
+
+    Raises:
+        SpecError: With the path of the field, the rule, and the value.
+    """
+    current = _current(document)
+    if "kind" not in current:
+        raise SpecError("kind: is missing")
+    kind = current["kind"]
+    if not isinstance(kind, str) or kind not in _DEVICES:
+        raise FieldError("kind", f"must be one of {', '.join(_DEVICES)}", kind)
+    return to_spec(current, _DEVICES[kind])
+
+
+def _current(document: object) -> Document:
+    """Bring a document to the current version of the format."""
+    if not isinstance(document, dict):
+        raise FieldError("document", "must be an object", document)
+    current = cast("Document", document)
+    if "schema" not in current:
+        raise SpecError("schema: is missing")
+    version = current["schema"]
+    while isinstance(version, int) and version in _MIGRATIONS:
+        current = _MIGRATIONS[version](current)
+        version = current["schema"]
+    if isinstance(version, bool) or version != SCHEMA:
+        raise FieldError("schema", f"must be {SCHEMA}, the version of this program", version)
+    return {**current, "schema": SCHEMA}
+
+
+def load_hologram(path: str | Path) -> HologramSpec:
+    """Read a hologram from a JSON file.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The valid hologram.
+
+    Raises:
+        SpecError: ``FILE: FIELD: what is wrong, and the value``.
+    """
+    with naming(path):
+        return hologram_from(parse_json(read_text(path)))
+
+
+def find_device(name: str | Path) -> Path:
+    """Find the file of a device.
+
+    Args:
+        name: Name of a shipped preset, or a path to a JSON file.
+
+    Returns:
+        Path of the file.
+
+    Raises:
+        SpecError: If it looks like a preset's name, and there is no such preset.
+    """
+    presets = preset_paths()
+    if str(name) in presets:
+        return presets[str(name)]
+    path = Path(name)
+    if path.suffix == ".json" or path.exists() or len(path.parts) > 1:
+        return path
+    raise SpecError(f"{name}: is neither a preset ({', '.join(presets)}) nor a file")
+
+
+def load_device(name: str | Path, assignments: Iterable[str] = ()) -> DeviceSpec:
+    """Read a device from a preset or a JSON file.
+
+    Args:
+        name: Name of a shipped preset, or a path to a JSON file.
+        assignments: Changes, each ``path.to.field=value``; see `override.override`.
+
+    Returns:
+        The valid device.
+
+    Raises:
+        SpecError: ``FILE: FIELD: what is wrong, and the value``.
+    """
+    path = find_device(name)
+    with naming(name):
+        spec = device_from(parse_json(read_text(path)))
+        changes = list(assignments)
+        if changes:
+            spec = device_from(override(to_document(spec), changes))
+        image_path(spec.display, path.parent)
+    return spec
+
+
+def image_path(display: DisplaySpec, folder: Path) -> Path | None:
+    """Find the picture of a display.
+
+    Args:
+        display: The display.
+        folder: Folder of the document, which a relative path starts from.
+
+    Returns:
+        Path of the image file, or None for a built-in picture.
+
+    Raises:
+        SpecError: If the file does not exist.
+    """
+    if display.image in BUILT_IN_IMAGES:
+        return None
+    path = folder / display.image
+    if not path.is_file():
+        rule = f"must be {', '.join(BUILT_IN_IMAGES)} or a file that exists"
+        raise FieldError("display.image", rule, display.image)
+    return path
+
+
+def to_document(spec: msgspec.Struct) -> Document:
+    """Turn a spec into plain data, every field written out.
+
+    Args:
+        spec: A hologram, a device, or a part of one.
+
+    Returns:
+        Objects, lists and numbers that give the same spec again; whole numbers without a point.
+    """
+    return cast("Document", plain(msgspec.to_builtins(spec)))
+
+
+def dump(spec: msgspec.Struct) -> str:
+    """Write a spec as JSON text.
+
+    Args:
+        spec: A hologram, a device, or a part of one.
+
+    Returns:
+        The text: fields in fixed order, floats in the shortest form that reads back the same,
+        lists of plain values on one line.
+    """
+    return _written(to_document(spec), "") + "\n"
+
+
+def _written(value: object, indent: str) -> str:
+    deeper = indent + _INDENT
+    if isinstance(value, dict) and value:
+        table = cast("Document", value)
+        line = json.dumps(table, ensure_ascii=False, allow_nan=False)
+        if _is_flat(table.values()) and len(line) <= _LINE:
+            return line
+        rows = [f"{json.dumps(name)}: {_written(item, deeper)}" for name, item in table.items()]
+        return "{\n" + ",\n".join(deeper + row for row in rows) + "\n" + indent + "}"
+    if isinstance(value, list) and not _is_flat(cast("list[object]", value)):
+        rows = [deeper + _written(item, deeper) for item in cast("list[object]", value)]
+        return "[\n" + ",\n".join(rows) + "\n" + indent + "]"
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+
+def _is_flat(values: Iterable[object]) -> bool:
+    return not any(isinstance(value, dict | list) for value in values)
+
+
+def preset_titles() -> dict[str, str]:
+    """Name and title of every shipped preset.
+
+    Returns:
+        Title by name, in order of name.
+
+    Raises:
+        SpecError: If a shipped file has no title; our own mistake.
+    """
+    titles: dict[str, str] = {}
+    for name, path in preset_paths().items():
+        with naming(path):
+            document = parse_json(read_text(path))
+            title = cast("Document", document).get("title") if isinstance(document, dict) else None
+            if not isinstance(title, str):
+                raise SpecError(f"title: must be a text, got {show(title)}")
+            titles[name] = title
+    return titles

@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A hologram of a document evaluated in numpy: rays through it, and its efficiencies."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.arrays import BoolArray, FloatArray, as_float
+from ..core.errors import SpecError
+from ..core.orders import TRANSMITTED_ZERO, Branch, OrderFan, order_weights
+from ..core.ray_law import Status
+from ..core.recording import characteristic_gradient
+from ..core.units import mm_to_m, nm_to_m
+from .convert import efficiency_from, recording_from
+from .hologram import HologramSpec
+from .medium import medium_from
+from .rays import RayTable, TraceResult
+
+_NORMAL = (0.0, 0.0, 1.0)
+
+
+def fan(
+    spec: HologramSpec,
+    points_mm: ArrayLike,
+    direction: ArrayLike,
+    wavelength_nm: ArrayLike,
+    branches: Sequence[Branch],
+) -> OrderFan:
+    """Diffract rays that hit a hologram, with the power of each branch.
+
+    Args:
+        spec: The hologram.
+        points_mm: Points on its surface, mm, shape ``(..., 3)``.
+        direction: Unit directions of travel, shape ``(..., 3)``; z > 0 comes from the back.
+        wavelength_nm: Vacuum wavelengths, nm, broadcastable to ``(...)``.
+        branches: Ways out to look at; any order, listed in the document or not.
+
+    Returns:
+        Directions, weights and status, shape ``(..., K)``; with total internal reflection the
+        transmitted and reflected order 0 may follow those asked for.
+
+    Raises:
+        SpecError: If a medium has no index at one of the wavelengths.
+    """
+    ways = tuple(branches)
+    if spec.efficiency.total_internal_reflection and TRANSMITTED_ZERO not in ways:
+        ways = (*ways, TRANSMITTED_ZERO)
+    incident, wavelength_nm = as_float(direction), as_float(wavelength_nm)
+    wavelength = nm_to_m(wavelength_nm)
+    shape = np.broadcast_shapes(incident.shape[:-1], wavelength_nm.shape)
+    index_back, index_front = (
+        np.broadcast_to(_index(spec, side, wavelength), shape) for side in ("back", "front")
+    )
+    from_back = incident[..., 2] > 0.0
+    return order_weights(
+        ways,
+        efficiency_from(spec.efficiency)(ways, wavelength),
+        incident,
+        as_float(_NORMAL),
+        characteristic_gradient(recording_from(spec.recording), mm_to_m(as_float(points_mm))),
+        wavelength_nm / spec.recording.wavelength_nm,
+        np.where(from_back, index_back, index_front),
+        np.where(from_back, index_front, index_back),
+        total_internal_reflection=spec.efficiency.total_internal_reflection,
+    )
+
+
+def _index(spec: HologramSpec, side: str, wavelength: FloatArray) -> FloatArray:
+    try:
+        return medium_from(getattr(spec.media, side)).index(wavelength)
+    except SpecError as error:
+        raise SpecError(f"media.{side}: {error}") from error
+
+
+def trace(spec: HologramSpec, rays: RayTable) -> TraceResult:
+    """Send rays through a hologram, each into the one branch that it names.
+
+    Args:
+        spec: The hologram, at z = 0, its normal along +z.
+        rays: Rays in its frame. One that starts beyond the element, runs along its plane, or
+            passes outside its rectangle is a miss; one that starts on the plane hits there.
+
+    Returns:
+        Hit points, directions, status and efficiency.
+
+    Raises:
+        SpecError: If a medium has no index at one of the wavelengths.
+    """
+    hit_mm, met = _meet(spec, rays)
+    count = len(rays)
+    direction = np.full((count, 3), np.nan)
+    status = np.full(count, int(Status.MISS), dtype=np.int64)
+    efficiency = np.full(count, np.nan)
+    for order, reflected in sorted(
+        set(zip(rays.order.tolist(), rays.reflected.tolist(), strict=True))
+    ):
+        chosen = np.flatnonzero(met & (rays.order == order) & (rays.reflected == reflected))
+        ways = (Branch(order, reflected=reflected),)
+        out = fan(spec, hit_mm[chosen], rays.direction[chosen], rays.wavelength_nm[chosen], ways)
+        direction[chosen] = out.directions[:, 0]
+        status[chosen] = out.status[:, 0]
+        efficiency[chosen] = out.weights[:, 0]
+    return TraceResult(hit_mm, direction, status, efficiency)
+
+
+def _meet(spec: HologramSpec, rays: RayTable) -> tuple[FloatArray, BoolArray]:
+    """Return where each ray meets the element (NaN for a miss), and which rays do."""
+    z, dz = rays.origin_mm[:, 2], rays.direction[:, 2]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        distance = -z / dz
+        hit = rays.origin_mm + distance[:, None] * rays.direction
+    half_width, half_height = spec.surface.size_mm[0] / 2.0, spec.surface.size_mm[1] / 2.0
+    met = (dz != 0.0) & (distance >= 0.0)
+    met &= (np.abs(hit[:, 0]) <= half_width) & (np.abs(hit[:, 1]) <= half_height)
+    hit[:, 2] = 0.0
+    return np.where(met[:, None], hit, np.nan), met
+
+
+def incident_direction(theta_deg: ArrayLike, phi_deg: ArrayLike, *, from_front: bool) -> FloatArray:
+    """Direction of an incident ray from its angles in its own medium.
+
+    Args:
+        theta_deg: Angle from the surface normal, degrees, shape ``(...)``.
+        phi_deg: Azimuth of the direction of travel from +x toward +y, degrees, broadcastable.
+        from_front: Whether the ray comes from z > 0, and so travels toward -z.
+
+    Returns:
+        Unit vectors, shape ``(..., 3)``.
+    """
+    theta, phi = np.broadcast_arrays(np.radians(as_float(theta_deg)), np.radians(as_float(phi_deg)))
+    toward = -1.0 if from_front else 1.0
+    sine = np.sin(theta)
+    return np.stack((sine * np.cos(phi), sine * np.sin(phi), toward * np.cos(theta)), axis=-1)
+
+
+def efficiencies(
+    spec: HologramSpec,
+    direction: ArrayLike,
+    wavelength_nm: ArrayLike,
+    orders: Sequence[int],
+) -> FloatArray:
+    """Share of the power in each order and side, for rays through the centre of a hologram.
+
+    Args:
+        spec: The hologram.
+        direction: Unit directions of travel, shape ``(..., 3)``.
+        wavelength_nm: Vacuum wavelengths, nm, broadcastable to ``(...)``.
+        orders: The K orders, listed in the document or not.
+
+    Returns:
+        Shares, shape ``(..., K, 2)``: transmitted, reflected; exactly 0 where evanescent.
+
+    Raises:
+        SpecError: If a medium has no index at one of the wavelengths.
+    """
+    ways = [Branch(order, reflected=side) for order in orders for side in (False, True)]
+    out = fan(spec, (0.0, 0.0, 0.0), direction, wavelength_nm, ways)
+    shares = out.weights[..., : len(ways)]
+    return shares.reshape(*shares.shape[:-1], len(orders), 2)

@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The error of a field that breaks a rule, and how paths and values are written in it."""
+
+import json
+
+from ..core.errors import SpecError
+from .plain import plain
+
+_SHOWN = 60
+
+
+def show(value: object) -> str:
+    """Write a value of a document for a one-line message.
+
+    Args:
+        value: Any value that JSON or Python may hold.
+
+    Returns:
+        The value as JSON (or its ``repr``), cut to a readable length.
+    """
+    try:
+        text = json.dumps(plain(value), ensure_ascii=True)
+    except (TypeError, ValueError, RecursionError):
+        text = " ".join(repr(value).split())
+    return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."
+
+
+class FieldError(SpecError, ValueError):
+    """A field breaks a rule; it is a ValueError too, so that msgspec adds where the struct stands.
+
+    Attributes:
+        field: Path of the field inside its own struct, e.g. ``position_mm[2]``.
+        detail: The rule and the value got.
+    """
+
+    def __init__(self, field: str, rule: str, value: object) -> None:
+        """Make the message ``field: rule, got value``."""
+        self.field = field
+        self.detail = f"{rule}, got {show(value)}"
+        super().__init__(f"{field}: {self.detail}")
+
+    def inside(self, parent: str) -> "FieldError":
+        """Give the same complaint, seen from the struct around.
+
+        Args:
+            parent: Path of the struct that holds the field.
+
+        Returns:
+            A new error with the longer path.
+        """
+        return self.moved(join(parent, self.field))
+
+    def moved(self, field: str) -> "FieldError":
+        """Give the same complaint about another field, the one where the value came from.
+
+        Args:
+            field: Path of that field.
+
+        Returns:
+            A new error.
+        """
+        error = FieldError(field, "", None)
+        error.detail = self.detail
+        error.args = (f"{field}: {self.detail}",)
+        return error
+
+
+def join(parent: str, child: str) -> str:
+    """Join two parts of a field's path.
+
+    Args:
+        parent: Path of the outer field, may be empty.
+        child: Path inside it, may be empty or start with an index in brackets.
+
+    Returns:
+        The whole path.
+    """
+    dot = "." if parent and child and not child.startswith("[") else ""
+    return f"{parent}{dot}{child}"

@@ -1,0 +1,243 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From the text of a JSON file to a valid spec; every mistake is named with its place and value.
+
+Files may come from strangers: their size and depth are limited, and nothing in them is run.
+"""
+
+import json
+import math
+import re
+from collections.abc import Generator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, cast
+
+import msgspec
+
+from ..core.errors import SpecError
+from .field_error import FieldError, join
+from .known import Part, in_words, known_names
+
+MAX_BYTES = 16 * 2**20
+MAX_DEPTH = 64
+
+_PLACE = re.compile(r"^(?P<what>.*?)(?: - at `(?P<key>key in )?\$(?P<path>.*)`)?$", re.DOTALL)
+_STEP = re.compile(r"\.(?P<name>[^.\[]+)|\[(?P<index>\d+|\.\.\.)\]")
+_LENGTH = re.compile(r"Expected `array` of length (?P<length>[^,]+)(?:, got \d+)?")
+_TYPE = re.compile(r"Expected `(?P<expected>.+)`, got `(?P<got>.+)`")
+_JSON_TYPES = {"dict": "object", "list": "array", "NoneType": "null"}
+
+
+class _Doubled(dict[str, Any]):
+    """An object of the text in which a name stands twice."""
+
+    def __init__(self, pairs: list[tuple[str, Any]]) -> None:
+        super().__init__(pairs)
+        names = [name for name, _ in pairs]
+        self.name = next(name for name in names if names.count(name) > 1)
+
+
+@contextmanager
+def naming(source: str | Path) -> Generator[None]:
+    """Put the name of a file before the message of every SpecError raised inside.
+
+    Args:
+        source: The file, as the user gave it.
+
+    Yields:
+        Nothing.
+
+    Raises:
+        SpecError: The same error, its message starting with ``FILE:``.
+    """
+    try:
+        yield
+    except SpecError as error:
+        raise SpecError(f"{source}: {error}") from error
+
+
+def read_text(path: str | Path, max_bytes: int = MAX_BYTES) -> str:
+    """Read a text file that may be anything.
+
+    Args:
+        path: The file.
+        max_bytes: Size above which it is refused.
+
+    Returns:
+        The text, without a byte-order mark.
+
+    Raises:
+        SpecError: If it cannot be read, is too large, or is not UTF-8.
+    """
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read(max_bytes + 1)
+    except (OSError, ValueError) as error:
+        reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
+        raise SpecError(f"cannot be read: {reason}") from error
+    if len(data) > max_bytes:
+        raise SpecError(f"cannot be read: larger than {max_bytes // 2**20} MB")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise SpecError(f"cannot be read: not UTF-8 text at byte {error.start}") from error
+
+
+def parse_json(text: str) -> object:
+    """Parse JSON strictly.
+
+    Args:
+        text: The text.
+
+    Returns:
+        Plain objects, lists, strings, finite numbers, booleans, None.
+
+    Raises:
+        SpecError: On bad syntax, a doubled name, a number that is not finite, or deep nesting.
+    """
+    try:
+        document = json.loads(text, object_pairs_hook=_object)
+    except json.JSONDecodeError as error:
+        place = f"line {error.lineno} column {error.colno}"
+        raise SpecError(f"{place}: is not valid JSON: {error.msg}") from error
+    except ValueError as error:
+        raise SpecError(f"holds a number that is not valid: {error}") from error
+    except RecursionError as error:
+        raise SpecError(f"is nested deeper than {MAX_DEPTH} levels") from error
+    _check_plain(document, "", 0)
+    return document
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    plain = dict(pairs)
+    return plain if len(plain) == len(pairs) else _Doubled(pairs)
+
+
+def _check_plain(value: object, path: str, depth: int) -> None:
+    if isinstance(value, dict | list) and depth >= MAX_DEPTH:
+        raise SpecError(f"is nested deeper than {MAX_DEPTH} levels")
+    if isinstance(value, _Doubled):
+        raise FieldError(join(path, value.name), "stands twice", value[value.name])
+    if isinstance(value, dict):
+        for name, item in cast("dict[str, object]", value).items():
+            _check_plain(name, path, depth)
+            _check_plain(item, join(path, name), depth + 1)
+    elif isinstance(value, list):
+        for place, item in enumerate(cast("list[object]", value)):
+            _check_plain(item, f"{path}[{place}]", depth + 1)
+    elif isinstance(value, str) and any("\ud800" <= letter <= "\udfff" for letter in value):
+        raise FieldError(path, "must be valid Unicode", value)
+    elif isinstance(value, int | float) and not _is_finite(value):
+        raise FieldError(path, "must be a finite number", value)
+
+
+def _is_finite(value: float) -> bool:
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def to_spec[S: msgspec.Struct](document: object, kind: type[S]) -> S:
+    """Turn plain data into a valid spec.
+
+    Args:
+        document: Objects, lists, strings and numbers, as JSON gives them.
+        kind: Struct of the whole document.
+
+    Returns:
+        The spec.
+
+    Raises:
+        SpecError: With the path of the field, the rule, and the value.
+    """
+    try:
+        return msgspec.convert(document, kind, strict=True)
+    except msgspec.ValidationError as error:
+        raise _explain(error, document, kind) from error
+
+
+def _explain(
+    error: msgspec.ValidationError, document: object, kind: type[msgspec.Struct]
+) -> SpecError:
+    """Turn msgspec's complaint into one with our path, rule and value."""
+    match = _PLACE.match(str(error))
+    what, path = (match["what"], match["path"] or "") if match else (str(error), "")
+    parts = _parts(path, document, what)
+    cause = error.__cause__
+    if isinstance(cause, FieldError):
+        return cause.inside(_written(parts))
+    name = re.search(r"field `(.*)`", what, re.DOTALL)
+    if name and "missing" in what:
+        return SpecError(f"{_written([*parts, name[1]])}: is missing")
+    if name:
+        known = ", ".join(known_names(kind, document, parts))
+        here = [*parts, name[1]]
+        return FieldError(
+            _written(here), f"is not a field here (known: {known})", at(document, here)
+        )
+    rule = _rule(what, known_names(kind, document, parts))
+    return FieldError(_written(parts) or "document", rule, at(document, parts))
+
+
+def _rule(what: str, known: list[str]) -> str:
+    length = _LENGTH.match(what)
+    if length:
+        return f"must be a list of length {length['length'].replace('>=', 'at least')}"
+    kind = _TYPE.match(what)
+    if kind:
+        return f"must be {in_words(kind['expected'])}"
+    if known and what.startswith("Invalid"):
+        return f"must be one of {', '.join(known)}"
+    return what
+
+
+def _parts(path: str, document: object, what: str) -> list[Part]:
+    """Split msgspec's path; it writes ``[...]`` for a name in a free table, found by its type."""
+    parts: list[Part] = []
+    for step in _STEP.finditer(path):
+        if step["name"] is not None:
+            parts.append(step["name"])
+        elif step["index"] != "...":
+            parts.append(int(step["index"]))
+        else:
+            parts.append(_odd_one(at(document, parts), what))
+    return parts
+
+
+def _odd_one(table: object, what: str) -> str:
+    kind = _TYPE.match(what)
+    got = kind["got"] if kind else ""
+    entries = cast("dict[str, object]", table) if isinstance(table, dict) else {}
+    for name, item in entries.items():
+        here = type(item).__name__
+        if _JSON_TYPES.get(here, here) == got:
+            return name
+    return "..."
+
+
+def at(document: object, parts: list[Part]) -> object:
+    """Look a value up by its path.
+
+    Args:
+        document: Plain data.
+        parts: Names and indices down to the value.
+
+    Returns:
+        The value, or None where the path ends early.
+    """
+    here: Any = document
+    for part in parts:
+        try:
+            here = here[part]
+        except (LookupError, TypeError):
+            return None
+    return here
+
+
+def _written(parts: list[Part]) -> str:
+    path = ""
+    for part in parts:
+        path = join(path, f"[{part}]" if isinstance(part, int) else part)
+    return path

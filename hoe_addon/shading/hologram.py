@@ -1,0 +1,210 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The hologram shader of a document: what is compiled in, and what its sockets get."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.orders import REFLECTED_ZERO, TRANSMITTED_ZERO, Branch
+from ..model.convert import branches_from
+from ..model.efficiency import EfficiencySpec, KinoformSpec
+from ..model.hologram import HologramSpec
+from ..model.recording import PlaneWaveSpec, PointSourceSpec, WaveSpec
+from .medium import medium_sockets
+from .source import ShaderSource, specialised
+
+type SocketValues = dict[str, float | int | tuple[float, float, float]]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Where the recording's frame lies in the object that carries the hologram.
+
+    Attributes:
+        origin: Its origin in object space, in scene units.
+        x: Its x axis, a unit vector in object space.
+        y: Its y axis, a unit vector in object space; z is their cross product.
+    """
+
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    x: tuple[float, float, float] = (1.0, 0.0, 0.0)
+    y: tuple[float, float, float] = (0.0, 1.0, 0.0)
+
+
+def hologram_shader(spec: HologramSpec) -> ShaderSource:
+    """Specialise the hologram shader. Equal kinds and orders give equal texts.
+
+    Args:
+        spec: The hologram.
+
+    Returns:
+        The flat text.
+    """
+    branches = branches_from(spec.efficiency, spec.orders)
+    folds = spec.efficiency.total_internal_reflection and TRANSMITTED_ZERO in branches
+    return _shader(spec, branches, folds=folds)
+
+
+def one_order_shader(spec: HologramSpec, branch: Branch) -> ShaderSource:
+    """The same shader with one way out, to read its direction and efficiency back.
+
+    Args:
+        spec: The hologram.
+        branch: The order and side; it need not be one that the document lists.
+
+    Returns:
+        The flat text.
+    """
+    folds = spec.efficiency.total_internal_reflection and branch == REFLECTED_ZERO
+    return _shader(spec, (branch,), folds=folds)
+
+
+def unit_efficiency_shader(spec: HologramSpec, branch: Branch) -> ShaderSource:
+    """The same shader with all light in one order, to read directions where it carries none."""
+    definitions = _recording_definitions(spec)
+    definitions |= {
+        "HOE_EFFICIENCY_PARAMETERS": "",
+        "HOE_PREPARE_EFFICIENCY": "",
+        "HOE_EACH_ORDER(X)": _each_order((branch,), {branch: "1.0"}),
+    }
+    return specialised("hoe_hologram", definitions)
+
+
+def hologram_sockets(spec: HologramSpec, frame: Frame, units_per_mm: float = 1.0) -> SocketValues:
+    """The numbers of the document as socket values.
+
+    Args:
+        spec: The hologram.
+        frame: Where its recording's frame lies in the object.
+        units_per_mm: Scene units in one mm.
+
+    Returns:
+        Value by socket identifier; the wavelength comes from another node.
+    """
+    recording = spec.recording
+    values: SocketValues = {
+        "frame_origin": frame.origin,
+        "frame_x": frame.x,
+        "frame_y": frame.y,
+        "recording_wavelength_nm": recording.wavelength_nm,
+    }
+    values |= _wave_sockets("object", recording.object, units_per_mm)
+    values |= _wave_sockets("reference", recording.reference, units_per_mm)
+    values |= medium_sockets("back", spec.media.back)
+    values |= medium_sockets("front", spec.media.front)
+    values |= _efficiency_sockets(spec.efficiency)
+    return values
+
+
+def _shader(spec: HologramSpec, branches: Sequence[Branch], *, folds: bool) -> ShaderSource:
+    efficiency = spec.efficiency
+    needed = (*branches, TRANSMITTED_ZERO) if folds else tuple(branches)
+    if isinstance(efficiency, KinoformSpec):
+        shares = {
+            branch: f"hoe_kinoform_efficiency({branch.order}, alpha, levels)"
+            for branch in needed
+            if not branch.reflected
+        }
+        parameters, prepare = _KINOFORM_PARAMETERS, _KINOFORM_PREPARE
+    else:
+        shares = {branch: _share_socket(branch) for branch in dict.fromkeys(needed)}
+        parameters = " ".join(_share_parameter(branch) for branch in shares)
+        prepare = ""
+    definitions = _recording_definitions(spec)
+    definitions |= {
+        "HOE_EFFICIENCY_PARAMETERS": parameters,
+        "HOE_PREPARE_EFFICIENCY": prepare,
+        "HOE_EACH_ORDER(X)": _each_order(branches, shares),
+    }
+    if folds:
+        definitions["HOE_TOTAL_INTERNAL_REFLECTION"] = "1"
+        definitions["HOE_ZERO_ORDER_TRANSMITTED"] = shares[TRANSMITTED_ZERO]
+    return specialised("hoe_hologram", definitions)
+
+
+def _recording_definitions(spec: HologramSpec) -> dict[str, str]:
+    waves = {"OBJECT": spec.recording.object, "REFERENCE": spec.recording.reference}
+    return {
+        f"HOE_{role}_POINT": "1"
+        for role, wave in waves.items()
+        if isinstance(wave, PointSourceSpec)
+    }
+
+
+_KINOFORM_PARAMETERS = " ".join(
+    f'{kind} {name} = {default} [[ string label = "{label}", string help = "{words}" ]],'
+    for kind, name, default, label, words in (
+        ("float", "levels", "0.0", "Levels", "Steps of the relief; 0 is continuous"),
+        (
+            "float",
+            "design_wavelength_nm",
+            "532.0",
+            "Design Wavelength",
+            "One wave deep here, in nm",
+        ),
+        ("float", "relief_a", "2.25", "Relief A", "Constant of n^2 of the relief"),
+        ("vector", "relief_b", "vector(0.0)", "Relief B", "Sellmeier B1 B2 B3"),
+        ("vector", "relief_c_um2", "vector(0.0)", "Relief C", "Sellmeier C1 C2 C3, in um^2"),
+    )
+)
+_KINOFORM_PREPARE = (
+    "float alpha = hoe_phase_depth(relief_a, relief_b, relief_c_um2, "
+    "design_wavelength_nm, wavelength_nm);"
+)
+
+
+def _each_order(branches: Sequence[Branch], shares: Mapping[Branch, str]) -> str:
+    sides = {False: "HOE_TRANSMITTED", True: "HOE_REFLECTED"}
+    return " ".join(
+        f"X({branch.order}, {sides[branch.reflected]}, {shares[branch]})"
+        for branch in branches
+        if branch in shares
+    )
+
+
+def _share_socket(branch: Branch) -> str:
+    sign = "m" if branch.order < 0 else "p"
+    return f"efficiency_{'r' if branch.reflected else 't'}_{sign}{abs(branch.order)}"
+
+
+def _share_parameter(branch: Branch) -> str:
+    side = "Reflected" if branch.reflected else "Transmitted"
+    label = f"{side} {branch.order:+d}"
+    words = "Share of the light in this order, 0 to 1"
+    return (
+        f"float {_share_socket(branch)} = 0.0 "
+        f'[[ string label = "{label}", string help = "{words}", float min = 0, float max = 1 ]],'
+    )
+
+
+def _wave_sockets(role: str, wave: WaveSpec, units_per_mm: float) -> SocketValues:
+    if isinstance(wave, PlaneWaveSpec):
+        unit = np.asarray(wave.direction) / np.linalg.norm(wave.direction)
+        return {f"{role}_source": _triple(unit), f"{role}_index": wave.index}
+    return {
+        f"{role}_source": _triple(np.asarray(wave.position_mm) * units_per_mm),
+        f"{role}_index": wave.index,
+        f"{role}_converging": int(wave.beam == "converging"),
+    }
+
+
+def _efficiency_sockets(efficiency: EfficiencySpec) -> SocketValues:
+    if isinstance(efficiency, KinoformSpec):
+        return {
+            "levels": float(efficiency.levels),
+            "design_wavelength_nm": efficiency.design_wavelength_nm,
+            **medium_sockets("relief", efficiency.relief),
+        }
+    return {
+        _share_socket(Branch(order, reflected=reflected)): share
+        for reflected, side in ((False, "T"), (True, "R"))
+        for order, share in efficiency.table.shares(side).items()
+    }
+
+
+def _triple(vector: NDArray[np.float64]) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in vector)
+    return (x, y, z)

@@ -1,0 +1,42 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shaders that send exact rays through a hologram and read back what became of them."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .source import ShaderSource, array, specialised
+
+MISSED = 4.0
+"""What hoe_probe_direction answers for a ray that met nothing; no direction has it."""
+
+
+def ray_camera_shader(origin: NDArray[np.float64], direction: NDArray[np.float64]) -> ShaderSource:
+    """A camera whose pixel rows, from the bottom, are these rays.
+
+    Args:
+        origin: Start points in scene units, in the camera's frame, shape ``(n, 3)``.
+        direction: Unit directions there, shape ``(n, 3)``.
+
+    Returns:
+        The flat text.
+    """
+    numbers = np.concatenate((origin, direction), axis=1).ravel()
+    return specialised(
+        "hoe_probe_camera",
+        {
+            "HOE_RAYS": str(len(origin)),
+            "HOE_RAY_NUMBERS": str(numbers.size),
+            "HOE_RAY_TABLE": array(numbers),
+        },
+    )
+
+
+def direction_world_shader() -> ShaderSource:
+    """The world that answers with directions."""
+    return specialised("hoe_probe_direction", {})
+
+
+def position_shader() -> ShaderSource:
+    """The surface that answers with the point where it is hit."""
+    return specialised("hoe_probe_position", {})
