@@ -9,6 +9,7 @@ import OpenImageIO as oiio  # noqa: N813  (the name that its own documentation u
 from numpy.typing import NDArray
 
 from ..core.errors import RenderError
+from ..files import replacing
 
 
 def read(path: Path, prefix: str = "") -> NDArray[np.float32]:
@@ -60,12 +61,10 @@ def write(path: Path, pixels: NDArray[np.float32]) -> None:
     spec = oiio.ImageSpec(width, height, channels, oiio.FLOAT)
     spec.attribute("compression", "zip")
     spec.attribute("oiio:ColorSpace", "lin_rec709")
-    part = path.with_name(f".{path.name}.part.exr")
-    output = oiio.ImageOutput.create(str(part))
-    if output is None or not output.open(str(part), spec):
-        raise RenderError(f"{path}: cannot be written: {oiio.geterror()}")
-    done = output.write_image(np.ascontiguousarray(pixels, dtype=np.float32))
-    if not (output.close() and done):
-        part.unlink(missing_ok=True)
-        raise RenderError(f"{path}: cannot be written: {oiio.geterror()}")
-    part.replace(path)
+    with replacing(path) as part:
+        output = oiio.ImageOutput.create(str(part))
+        if output is None or not output.open(str(part), spec):
+            raise RenderError(f"{path}: cannot be written: {oiio.geterror()}")
+        done = output.write_image(np.ascontiguousarray(pixels, dtype=np.float32))
+        if not (output.close() and done):
+            raise RenderError(f"{path}: cannot be written: {output.geterror()}")

@@ -15,6 +15,7 @@ from ..shading.medium import medium_sockets
 from ..shading.source import specialised
 from ..shading.wavelength import display_shader, filter_shader
 from . import nodes
+from .props import sync
 from .spectral import SpectralScene, use_wavelength
 
 
@@ -24,7 +25,7 @@ def hologram_material(
     frame: Frame | None = None,
     units_per_mm: float = 1.0,
 ) -> bpy.types.Material:
-    """The material of a hologram.
+    """The material of a hologram; it can be edited by its properties where they are registered.
 
     Args:
         spec: The hologram.
@@ -34,10 +35,15 @@ def hologram_material(
 
     Returns:
         A new material.
+
+    Raises:
+        SpecError: A number is outside what the properties can hold.
     """
     values = hologram_sockets(spec, frame or Frame(), units_per_mm)
     material = nodes.script_material(spec.name, hologram_shader(spec), values)
     use_wavelength(material, spectral.group)
+    if sync.has_properties():
+        sync.write_spec(material, spec, frame, units_per_mm)
     return material
 
 

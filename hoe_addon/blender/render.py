@@ -4,9 +4,8 @@
 
 import contextlib
 import os
-import re
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import bpy
@@ -22,11 +21,20 @@ type Progress = Callable[[float], None]
 
 COMBINED = "Combined"
 
+_PATHS_PER_PART = 3_000_000
+"""Camera paths in one part: seconds of work, so that progress moves and a stop is soon heard.
+
+The parts depend on picture and samples only, never on time: same seed, same picture.
+"""
+
 
 def render_layers(
-    scene: bpy.types.Scene, layers: tuple[str, ...], progress: Progress | None = None
+    scene: bpy.types.Scene, layers: Sequence[str], progress: Progress | None = None
 ) -> dict[str, NDArray[np.float32]]:
-    """Render a scene and return some of its passes.
+    """Render a scene in parts and return some of its passes.
+
+    Each part takes the next samples of one and the same stratified sequence, and the parts'
+    mean is the picture that one long render would give.
 
     Args:
         scene: The scene, ready to render; its first view layer is taken.
@@ -38,17 +46,38 @@ def render_layers(
 
     Raises:
         RenderError: Blender gave no picture, or one that has NaN or infinity in it.
+        CancelledError: The progress function asked to stop.
     """
-    with tempfile.TemporaryDirectory(prefix="hoe_render_") as folder:
+    total = scene.cycles.samples
+    pixels = scene.render.resolution_x * scene.render.resolution_y
+    step = max(1, min(total, _PATHS_PER_PART // pixels))
+    sums: dict[str, NDArray[np.float64]] = {}
+    with _kept_settings(scene), tempfile.TemporaryDirectory(prefix="hoe_render_") as folder:
         path = Path(folder) / "layers.exr"
-        with _kept_output(scene), _told(scene, progress):
-            write_float_exr(scene, path, layers=True)
-            with quiet_stdout():
-                bpy.ops.render.render(write_still=True, scene=scene.name)
-        if not path.exists():
-            raise RenderError("Blender wrote no picture; see its log for the reason")
-        view_layer = scene.view_layers[0].name
-        found = {layer: exr.read(path, f"{view_layer}.{layer}.") for layer in layers}
+        write_float_exr(scene, path, layers=True)
+        # With persistent data Cycles keeps the first part's offset: all parts would be the same.
+        scene.render.use_persistent_data = False
+        for first in range(0, total, step):
+            count = min(step, total - first)
+            for layer, part in _render_part(scene, path, layers, first, count).items():
+                sums[layer] = sums.get(layer, 0.0) + part.astype(np.float64) * (count / total)
+            if progress is not None:
+                progress((first + count) / total)
+    return {layer: pixels.astype(np.float32) for layer, pixels in sums.items()}
+
+
+def _render_part(
+    scene: bpy.types.Scene, path: Path, layers: Sequence[str], first: int, count: int
+) -> dict[str, NDArray[np.float32]]:
+    scene.cycles.use_sample_subset = True
+    scene.cycles.sample_offset = first
+    scene.cycles.sample_subset_length = count
+    path.unlink(missing_ok=True)
+    with quiet_stdout():
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+    if not path.exists():
+        raise RenderError("Blender wrote no picture; see its log for the reason")
+    found = {layer: exr.read(path, f"{scene.view_layers[0].name}.{layer}.") for layer in layers}
     for layer, pixels in found.items():
         bad = int(np.count_nonzero(~np.isfinite(pixels)))
         if bad:
@@ -71,35 +100,19 @@ def quiet_stdout() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def _kept_output(scene: bpy.types.Scene) -> Iterator[None]:
-    """Give a user's output settings back after the render."""
-    picture = scene.render.image_settings
-    names = ("media_type", "file_format", "color_mode", "color_depth", "exr_codec")
-    kept = {name: getattr(picture, name) for name in names}
-    path, extension = scene.render.filepath, scene.render.use_file_extension
+def _kept_settings(scene: bpy.types.Scene) -> Iterator[None]:
+    """Give a user's output and sampling settings back after the render."""
+    groups = (
+        (
+            scene.render.image_settings,
+            ("media_type", "file_format", "color_mode", "color_depth", "exr_codec"),
+        ),
+        (scene.render, ("filepath", "use_file_extension", "use_persistent_data")),
+        (scene.cycles, ("use_sample_subset", "sample_offset", "sample_subset_length")),
+    )
+    kept = [(owner, name, getattr(owner, name)) for owner, names in groups for name in names]
     try:
         yield
     finally:
-        for name, value in kept.items():
-            setattr(picture, name, value)
-        scene.render.filepath, scene.render.use_file_extension = path, extension
-
-
-@contextlib.contextmanager
-def _told(scene: bpy.types.Scene, progress: Progress | None) -> Iterator[None]:
-    """Pass on the sample counts that Cycles reports while it renders."""
-    if progress is None:
-        yield
-        return
-
-    def listen(*arguments: object) -> None:
-        text = next((a for a in arguments if isinstance(a, str)), "")
-        match = re.search(r"Sample (\d+)/(\d+)", text)
-        if match:
-            progress(int(match[1]) / int(match[2]))
-
-    bpy.app.handlers.render_stats.append(listen)
-    try:
-        yield
-    finally:
-        bpy.app.handlers.render_stats.remove(listen)
+        for owner, name, value in kept:
+            setattr(owner, name, value)

@@ -9,14 +9,12 @@ from . import room_materials as materials
 from . import room_shapes as shapes
 from .room_bookcase import add_bookcase
 from .room_furniture import FLOOR, WALL, add_lamp, add_picture, add_plant, add_sofa
-
-AMBIENT = "ambient"
-"""Light group of all that gives light in the room."""
+from .room_lights import add_window
 
 _LEFT, _RIGHT = -2000.0, 2000.0
 _BACK, _CEILING = -1500.0, 1400.0
 
-_WHITE_OF_UNIT_LIGHT = 1.0
+_WHITE_OF_UNIT_LIGHT = 0.296
 """Luminance of a white card in the middle of the room, its lights at their base strength."""
 
 
@@ -41,11 +39,9 @@ def add_living_room(collection: bpy.types.Collection, white: float) -> None:
 
 
 def _add_shell(collection: bpy.types.Collection) -> None:
-    paint = materials.mottled(
-        "Wall Paint", ((0.150, 0.190, 0.180), (0.165, 0.206, 0.196)), (260.0, 260.0, 260.0), roughness=0.8
-    )
-    pale = materials.plain("Pale Paint", (0.62, 0.60, 0.56), 0.8)
-    wood = materials.mottled("Floorboards", ((0.20, 0.12, 0.065), (0.32, 0.20, 0.11)), (70.0, 900.0, 70.0))
+    paint = materials.matte("Wall Paint", (0.130, 0.165, 0.157))
+    pale = materials.matte("Pale Paint", (0.62, 0.60, 0.56))
+    wood = materials.matte("Floorboards", (0.26, 0.16, 0.09))
     low, high = (_LEFT, _BACK, FLOOR), (_RIGHT, WALL, _CEILING)
     shell = shapes.box(low, high)
     # Faces of a box: left, right, front, back, floor, ceiling; seen from inside, so turned over.
@@ -53,15 +49,13 @@ def _add_shell(collection: bpy.types.Collection) -> None:
     room = meshes.add(collection, inside.mesh("Room"), pale, paint, wood)
     room.data.polygons.foreach_set("material_index", [0, 0, 0, 1, 2, 0])
     rug = shapes.box((-1100.0, 2300.0, FLOOR), (1100.0, 3700.0, FLOOR + 12.0))
-    wool = materials.plain("Rug", (0.42, 0.38, 0.32), 0.9)
+    wool = materials.matte("Rug", (0.42, 0.38, 0.32))
     meshes.add(collection, rug.mesh("Rug"), wool)
 
 
 def _add_daylight(collection: bpy.types.Collection, unit: float) -> None:
     """A window in the left wall and a wider, fainter one behind the eye."""
-    sky = materials.glowing("Sky", (0.90, 0.97, 1.06), 5.0 * unit)
-    pane = shapes.parallelogram((_LEFT + 5.0, 1500.0, -350.0), (0.0, 1900.0, 0.0), (0.0, 0.0, 1500.0))
-    meshes.add(collection, pane.mesh("Window"), sky).lightgroup = AMBIENT
-    faint = materials.glowing("Far Sky", (0.95, 0.98, 1.02), 1.0 * unit)
-    pane = shapes.parallelogram((-1200.0, _BACK + 5.0, -300.0), (0.0, 0.0, 1400.0), (2400.0, 0.0, 0.0))
-    meshes.add(collection, pane.mesh("Far Window"), faint).lightgroup = AMBIENT
+    add_window(
+        collection, (_LEFT + 5.0, 2450.0, 400.0), (1900.0, 1500.0), (1.0, 0.0, 0.0), 5.0 * unit
+    )
+    add_window(collection, (0.0, _BACK + 5.0, 400.0), (2400.0, 1400.0), (0.0, 1.0, 0.0), 1.0 * unit)

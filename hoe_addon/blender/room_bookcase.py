@@ -33,11 +33,10 @@ _COVERS: tuple[materials.Colour, ...] = (
 def add_bookcase(collection: bpy.types.Collection) -> None:
     """Add an open oak bookcase at the left edge of the view."""
     front = WALL - _DEPTH
-    oak = materials.mottled(
-        "Oak", ((0.25, 0.145, 0.075), (0.36, 0.22, 0.12)), (350.0, 60.0, 9.0), roughness=0.55
-    )
+    oak = materials.mottled("Oak", ((0.25, 0.145, 0.075), (0.36, 0.22, 0.12)), (350.0, 60.0, 9.0))
     boards = [
-        shapes.box((_LEFT, front, z), (_RIGHT, WALL, z + _BOARD)) for z in map(_board, range(_BOARDS))
+        shapes.box((_LEFT, front, z), (_RIGHT, WALL, z + _BOARD))
+        for z in map(_board, range(_BOARDS))
     ]
     top = _board(_BOARDS - 1) + _BOARD
     for x in (_LEFT - _BOARD, _RIGHT):
@@ -69,10 +68,12 @@ def _add_books(collection: bpy.types.Collection) -> None:
     for level, cover in enumerate((5, 1, 4)):
         book = shapes.box((-95.0, -75.0, 0.0), (95.0 - 9.0 * level, 75.0, 28.0))
         book = book.turned("z", 4.0 * level - 5.0)
-        books[cover].append(book.moved(_RIGHT - 112.0, WALL - 160.0, _board(4) + _BOARD + 28.0 * level))
+        books[cover].append(
+            book.moved(_RIGHT - 112.0, WALL - 160.0, _board(4) + _BOARD + 28.0 * level)
+        )
     for number, (colour, group) in enumerate(zip(_COVERS, books, strict=True)):
         mesh = shapes.joined(group).mesh(f"Books {number + 1}")
-        meshes.add(collection, mesh, materials.plain(mesh.name, colour, 0.6))
+        meshes.add(collection, mesh, materials.matte(mesh.name, colour))
 
 
 def _row(
@@ -103,6 +104,6 @@ def _add_vessels(collection: bpy.types.Collection) -> None:
     ]
     for name, profile, colour, x, board, lift in places:
         mesh = shapes.lathe(profile).mesh(name, smooth=True)
-        glaze = materials.plain(name, colour, 0.5)
+        glaze = materials.polished(name, colour, 0.45)
         place = (_RIGHT + x, WALL - 160.0, _board(board) + _BOARD + lift)
         meshes.add(collection, mesh, glaze, location=place)

@@ -100,7 +100,9 @@ def lathe(profile: Sequence[tuple[float, float]], sides: int = 40) -> Shape:
     angle = np.arange(sides) * (2.0 * np.pi / sides)
     radius, z = np.asarray(profile, dtype=float).T[..., None]
     z = np.broadcast_to(z, (len(profile), sides))
-    return grid(np.stack((radius * np.cos(angle), radius * np.sin(angle), z), axis=-1), wrapped=True)
+    return grid(
+        np.stack((radius * np.cos(angle), radius * np.sin(angle), z), axis=-1), wrapped=True
+    )
 
 
 def tube(path: NDArray[np.float64], radius: float, sides: int = 8) -> Shape:
@@ -128,10 +130,10 @@ def rounded_box(size: Sequence[float], radius: float, bulge: float = 0.0) -> Sha
     core = np.clip(corners, radius - half, half - radius)
     outward = corners - core
     outward /= np.maximum(np.linalg.norm(outward, axis=1, keepdims=True), 1e-9)
-    share = 1.0 - (corners / half) ** 2
-    side = np.abs(corners) >= half * (1.0 - 1e-9)
-    share[side] = 1.0
-    crown = bulge * np.prod(share, axis=1, keepdims=True) * np.sign(corners) * side
+    on_side = np.abs(corners) >= half * (1.0 - 1e-9)
+    share = np.where(on_side, 1.0, 1.0 - (corners / half) ** 2)
+    flat = on_side.sum(axis=1, keepdims=True) == 1
+    crown = bulge * np.prod(share, axis=1, keepdims=True) * np.sign(corners) * (on_side & flat)
     return Shape(core + radius * outward + crown, cube.faces).welded()
 
 
@@ -153,11 +155,3 @@ def _cube_side(axis: int, sign: float) -> Shape:
     points[..., (axis + 2) % 3] = v
     sheet = grid(points)
     return sheet if sign > 0.0 else Shape(sheet.corners, sheet.faces[:, ::-1])
-
-
-def parallelogram(corner: Sequence[float], first: Sequence[float], second: Sequence[float]) -> Shape:
-    """A flat sheet from one corner along two edges; its normal is first x second."""
-    start = np.asarray(corner, dtype=float)
-    edges = np.asarray((first, second), dtype=float)
-    points = start + np.asarray([[0.0 * edges[0], edges[0]], [edges[1], edges[0] + edges[1]]])
-    return grid(points)

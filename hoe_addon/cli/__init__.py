@@ -15,7 +15,7 @@ from importlib import import_module
 from ..core.errors import CancelledError, HoeError
 from .parser import Parser
 
-COMMANDS = ("presets", "efficiency", "trace")
+COMMANDS = ("presets", "render", "eyebox", "trace", "efficiency", "bench", "demo")
 """Modules of the commands, in the order of ``--help``."""
 
 EXIT_OK = 0

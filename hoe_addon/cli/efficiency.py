@@ -61,7 +61,7 @@ def run(args: argparse.Namespace) -> int:
     """
     from ..model import fields
     from ..model.document import load_hologram
-    from .output import write_text
+    from ..files import write_text
 
     for wavelength_nm in args.wavelengths:
         fields.wavelength_value("--wavelengths", wavelength_nm)

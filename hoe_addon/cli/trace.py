@@ -52,7 +52,7 @@ def run(args: argparse.Namespace) -> int:
     """
     from ..model.document import load_hologram
     from ..model.reading import naming
-    from .output import replacing, write_pieces
+    from ..files import replacing, write_pieces
     from .ray_files import ray_table, read_rays, result_lines
 
     spec = load_hologram(args.hologram)

@@ -21,6 +21,7 @@ WHITES = ("D65", "E", "A")
 _LEAST_CENTRE_WIDTHS = 3.0
 """Nearer to wavelength 0 than this many widths, a line of the core would reach it."""
 
+_MIN_PIXELS = 4  # Blender renders nothing smaller
 _MAX_PIXELS = 16384
 _MAX_SAMPLES = 1_000_000
 _MAX_SEED = 2**31 - 1
@@ -223,12 +224,12 @@ class RenderSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
     def __post_init__(self) -> None:
         """Check every setting."""
-        fields.integers(self, "size", 1, _MAX_PIXELS, size=2)
+        fields.integers(self, "size", _MIN_PIXELS, _MAX_PIXELS, size=2)
         fields.integer(self, "samples", 1, _MAX_SAMPLES)
         fields.integer(self, "seed", 0, _MAX_SEED)
         field_kinds.choice(self, "mode", ("spectral", "preview"))
         fields.wavelength(self, "preview_wavelength_nm")
-        fields.number(self, "spectrum_floor", at_least=0.0, at_most=1.0)
+        fields.number(self, "spectrum_floor", above=0.0, at_most=1.0)
         fields.number(self, "luminance_per_unit_cd_m2", above=0.0)
         fields.number(self, "exposure_ev", at_least=-_MAX_EXPOSURE_EV, at_most=_MAX_EXPOSURE_EV)
         fields.integer(self, "max_bounces", 1, _MAX_BOUNCES)

@@ -9,8 +9,9 @@ from typing import Any
 
 import pytest
 
-from hoe_addon.cli import main, output
-from hoe_addon.cli.output import OutputError, replacing, writable_folder
+from hoe_addon import files as output
+from hoe_addon.cli import main
+from hoe_addon.files import OutputError, replacing, writable_folder
 
 LENS = Path(__file__).parents[1] / "documents" / "lens.json"
 HEADER = "x_mm,y_mm,z_mm,l,m,n,wavelength_nm,order,side"
@@ -235,7 +236,10 @@ def test_a_failure_on_the_way_keeps_the_old_file(folder: Path) -> None:
 
 
 OPTIONS = {
-    "no command": ([], "COMMAND: is missing, must be one of presets, efficiency, trace"),
+    "no command": (
+        [],
+        "COMMAND: is missing, must be one of presets, render, eyebox, trace, efficiency, bench, demo",
+    ),
     "unknown command": (["paint"], "COMMAND: invalid choice: 'paint'"),
     "no list": (
         ["efficiency", "a.json", "--out", "b", "--orders=0"],

@@ -7,7 +7,7 @@ from collections.abc import Generator, Iterable
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..core.errors import HoeError
+from .core.errors import HoeError
 
 
 class OutputError(HoeError):

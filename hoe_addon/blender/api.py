@@ -1,0 +1,84 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What scripts use, without any window; every name can be had from ``hoe_addon.blender`` too.
+
+- Documents: ``load_device``, ``load_hologram``, ``device_from``, ``hologram_from``,
+  ``to_document``, ``HologramSpec``, ``LightGuideSpec``.
+- Scenes: ``build_device`` and its ``DeviceScene``; ``set_up`` for Cycles; ``has_osl``,
+  ``require_osl``; ``spectral_scene`` and its ``SpectralScene``, with ``by_significance``.
+- Elements: ``add_guide``, ``add_light_engine``, ``add_eye``, ``set_pupil``, ``patch_frame``.
+- Materials: ``hologram_material``, ``dielectric_material``, ``thin_lens_material``,
+  ``display_material``, ``filter_material``, ``absorber_material``, ``picture``.
+- A hologram's properties, after ``hoe_addon.register()``: ``write_spec``, ``read_spec``,
+  ``read_frame``, ``Frame``; then ``refresh`` or ``refresh_changed`` for the shader.
+- Results: ``render_layers``, ``trace_cycles``.
+"""
+
+from ..core.wavelength_sampling import by_significance
+from ..model.device import LightGuideSpec
+from ..model.document import (
+    device_from,
+    hologram_from,
+    load_device,
+    load_hologram,
+    to_document,
+)
+from ..model.hologram import HologramSpec
+from ..shading.hologram import Frame
+from .device import DeviceScene, build_device
+from .eye import add_eye, set_pupil
+from .guide import add_guide, patch_frame
+from .light_engine import add_light_engine
+from .materials import (
+    absorber_material,
+    dielectric_material,
+    display_material,
+    filter_material,
+    hologram_material,
+    picture,
+    thin_lens_material,
+)
+from .osl import has_osl, require_osl
+from .props.sync import read_frame, read_spec, refresh, refresh_changed, write_spec
+from .render import render_layers
+from .render_settings import set_up
+from .spectral import SpectralScene, spectral_scene
+from .trace import trace_cycles
+
+__all__ = [
+    "DeviceScene",
+    "Frame",
+    "HologramSpec",
+    "LightGuideSpec",
+    "SpectralScene",
+    "absorber_material",
+    "add_eye",
+    "add_guide",
+    "add_light_engine",
+    "build_device",
+    "by_significance",
+    "device_from",
+    "dielectric_material",
+    "display_material",
+    "filter_material",
+    "has_osl",
+    "hologram_from",
+    "hologram_material",
+    "load_device",
+    "load_hologram",
+    "patch_frame",
+    "picture",
+    "read_frame",
+    "read_spec",
+    "refresh",
+    "refresh_changed",
+    "render_layers",
+    "require_osl",
+    "set_pupil",
+    "set_up",
+    "spectral_scene",
+    "thin_lens_material",
+    "to_document",
+    "trace_cycles",
+    "write_spec",
+]

@@ -1,0 +1,8 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The modules that register something with Blender, each after those that it depends on."""
+
+from .props import efficiency, hologram, material, medium, recording, sync
+from .registration import Part
+
+PARTS: tuple[Part, ...] = (medium, recording, efficiency, hologram, material, sync)

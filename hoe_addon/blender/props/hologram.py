@@ -1,0 +1,188 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The whole hologram as properties."""
+
+from typing import Any
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from ...model.document import SCHEMA
+from ..registration import class_registrars
+from .changes import mark
+from .efficiency import ORDER_LIMITS, HOE_PG_efficiency
+from .medium import HOE_PG_media
+from .recording import HOE_PG_recording
+from .values import numbers, reset, store
+
+
+class HOE_PG_surface(bpy.types.PropertyGroup):
+    """The shape of the element."""
+
+    size_mm: FloatVectorProperty(
+        name="Size",
+        description="Width and height of the plane element, in mm",
+        size=2,
+        default=(40.0, 40.0),
+        min=1e-6,
+        soft_min=0.1,
+        soft_max=500.0,
+        step=100,
+        precision=3,
+        update=mark,
+    )
+
+    def to_document(self) -> dict[str, Any]:
+        """The surface as documents write it."""
+        return {"shape": "plane", "size_mm": numbers(self, "size_mm")}
+
+    def from_document(self, document: dict[str, Any], path: str) -> None:
+        """Take the surface of a document.
+
+        Args:
+            document: The surface, a plane.
+            path: Its path, for messages.
+        """
+        store(self, "size_mm", document["size_mm"], path)
+
+
+def _axis(letter: str, default: tuple[float, float, float]) -> Any:
+    return FloatVectorProperty(
+        name=f"{letter} Axis",
+        description=f"{letter.lower()} axis of the recording in object space, a unit vector",
+        subtype="XYZ",
+        size=3,
+        default=default,
+        min=-1.0,
+        max=1.0,
+        step=1,
+        precision=4,
+        update=mark,
+    )
+
+
+class HOE_PG_frame(bpy.types.PropertyGroup):
+    """Where the frame of the recording lies in the object."""
+
+    origin: FloatVectorProperty(
+        name="Origin",
+        description="Origin of the recording in object space, in scene units",
+        subtype="XYZ",
+        size=3,
+        default=(0.0, 0.0, 0.0),
+        soft_min=-1000.0,
+        soft_max=1000.0,
+        step=100,
+        precision=3,
+        update=mark,
+    )
+    x: _axis("X", (1.0, 0.0, 0.0))
+    y: _axis("Y", (0.0, 1.0, 0.0))
+
+
+class HOE_PG_order(bpy.types.PropertyGroup):
+    """One diffraction order to trace."""
+
+    order: IntProperty(
+        name="Order", description="Diffraction order", default=0, update=mark, **ORDER_LIMITS
+    )
+
+
+def _enable(group: "HOE_PG_hologram", context: bpy.types.Context) -> None:
+    # Stored with the file, so that a later version knows how to read the rest.
+    if not group.is_property_set("schema"):
+        group.schema = SCHEMA
+    mark(group, context)
+
+
+class HOE_PG_hologram(bpy.types.PropertyGroup):
+    """A hologram on a material; its name is the name of the material."""
+
+    enabled: BoolProperty(
+        name="Hologram",
+        description="Whether this material is a hologram",
+        default=False,
+        update=_enable,
+    )
+    schema: IntProperty(
+        name="Schema",
+        description="Version of the format of these properties",
+        default=SCHEMA,
+        min=1,
+        options={"HIDDEN"},
+    )
+    problem: StringProperty(
+        name="Problem",
+        description="Why the shader could not be made from these properties; empty when it could",
+        options={"HIDDEN"},
+    )
+    units_per_mm: FloatProperty(
+        name="Units per mm",
+        description="Scene units in one mm",
+        default=1.0,
+        min=1e-6,
+        max=1e6,
+        soft_min=0.001,
+        soft_max=1.0,
+        step=1,
+        precision=4,
+        update=mark,
+    )
+    surface: PointerProperty(
+        name="Surface", description="Shape of the element", type=HOE_PG_surface
+    )
+    frame: PointerProperty(
+        name="Frame", description="Where the recording lies in the object", type=HOE_PG_frame
+    )
+    media: PointerProperty(
+        name="Media", description="Media on the two sides of the surface", type=HOE_PG_media
+    )
+    recording: PointerProperty(
+        name="Recording", description="How the hologram was recorded", type=HOE_PG_recording
+    )
+    efficiency: PointerProperty(
+        name="Efficiency", description="How much light each order gets", type=HOE_PG_efficiency
+    )
+    orders: CollectionProperty(
+        name="Orders", description="Diffraction orders that are traced", type=HOE_PG_order
+    )
+
+    def to_document(self) -> dict[str, Any]:
+        """The hologram as documents write it."""
+        return {
+            "schema": self.schema,
+            "name": self.id_data.name,
+            "surface": self.surface.to_document(),
+            "media": self.media.to_document(),
+            "recording": self.recording.to_document(),
+            "efficiency": self.efficiency.to_document(),
+            "orders": [entry.order for entry in self.orders],
+        }
+
+    def from_document(self, document: dict[str, Any]) -> None:
+        """Take a document; what it does not name gets its default, the frame stays.
+
+        Args:
+            document: A valid hologram of the current format.
+        """
+        reset(self)
+        self.schema = document["schema"]
+        self.surface.from_document(document["surface"], "surface")
+        self.media.from_document(document["media"], "media")
+        self.recording.from_document(document["recording"], "recording")
+        self.efficiency.from_document(document["efficiency"], "efficiency")
+        for order in document["orders"]:
+            self.orders.add().order = order
+
+
+register, unregister = class_registrars(
+    (HOE_PG_surface, HOE_PG_frame, HOE_PG_order, HOE_PG_hologram)
+)

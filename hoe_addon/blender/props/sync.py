@@ -1,0 +1,215 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Between a hologram's document, the properties of its material, and the shader in its nodes.
+
+Properties are float32; `values` says what of a document's numbers comes back exactly.
+"""
+
+import math
+
+import bpy
+
+from ...core.errors import HoeError, SpecError
+from ...model.document import hologram_from, to_document
+from ...model.hologram import HologramSpec
+from ...shading.hologram import Frame, hologram_shader, hologram_sockets
+from ...shading.source import ShaderSource
+from .. import nodes
+from ..spectral import use_wavelength
+from . import changes
+from .values import number, numbers, store
+
+_SHADER = "hoe_hologram"
+_ORTHONORMAL = 1e-5
+"""How far axes may be from unit length and a right angle; float32 is good to 1e-7."""
+
+
+def has_properties() -> bool:
+    """Whether materials have the properties of a hologram, that is, the add-on is registered."""
+    return hasattr(bpy.types.Material, "hologram")
+
+
+def write_spec(
+    material: bpy.types.Material,
+    spec: HologramSpec,
+    frame: Frame | None = None,
+    units_per_mm: float = 1.0,
+) -> None:
+    """Write a hologram to the properties of a material; its nodes stay as they are.
+
+    Args:
+        material: The material, which keeps its name.
+        spec: The hologram.
+        frame: Where the recording's frame lies in the object; by default it is the object's own.
+        units_per_mm: Scene units in one mm.
+
+    Raises:
+        SpecError: A number is outside what the properties can hold.
+    """
+    properties = _properties(material)
+    placed = frame or Frame()
+    with changes.unmarked():
+        properties.from_document(to_document(spec))
+        for field in ("origin", "x", "y"):
+            store(properties.frame, field, getattr(placed, field), "frame")
+        store(properties, "units_per_mm", units_per_mm, "hologram")
+        properties.enabled = True
+
+
+def read_spec(material: bpy.types.Material) -> HologramSpec:
+    """Make the hologram that the properties of a material describe.
+
+    Args:
+        material: The material; its name is the name of the hologram.
+
+    Returns:
+        The valid hologram. What `write_spec` wrote comes back within the limits of `values`.
+
+    Raises:
+        SpecError: With the path of the field, the rule, and the value; or the material is no
+            hologram.
+    """
+    properties = _properties(material)
+    if not properties.enabled:
+        raise SpecError(f"material {material.name}: is not a hologram")
+    return hologram_from(properties.to_document())
+
+
+def read_frame(material: bpy.types.Material) -> Frame:
+    """Read where the frame of the recording lies in the object.
+
+    Args:
+        material: The material.
+
+    Returns:
+        The frame.
+
+    Raises:
+        SpecError: Its axes are not two unit vectors at a right angle.
+    """
+    frame = _properties(material).frame
+    origin, x, y = (tuple(numbers(frame, field)) for field in ("origin", "x", "y"))
+    dots = (math.sumprod(x, x) - 1.0, math.sumprod(y, y) - 1.0, math.sumprod(x, y))
+    if max(map(abs, dots)) > _ORTHONORMAL:
+        raise SpecError(f"frame: must have two unit axes at a right angle, got {x} and {y}")
+    return Frame(origin, x, y)
+
+
+def refresh(material: bpy.types.Material, wavelength: bpy.types.NodeTree | None = None) -> bool:
+    """Make the shader of a material agree with its properties.
+
+    As long as kinds and orders stay, only numbers are written; nothing is compiled. Else the
+    shader node gets another text, and what both texts have in common keeps its links.
+
+    Args:
+        material: A hologram.
+        wavelength: Node group of `spectral_scene`, for a shader node without a wavelength.
+
+    Returns:
+        Whether the shader text was changed.
+
+    Raises:
+        SpecError: The properties do not make a valid hologram.
+        MissingOslError: The text would have to be compiled, and this Blender has no OSL.
+        ShaderCompileError: The text does not compile.
+    """
+    properties = _properties(material)
+    changes.forget(material)
+    try:
+        spec = read_spec(material)
+        frame, units_per_mm = read_frame(material), number(properties, "units_per_mm")
+        changed = _bring_up_to_date(
+            material, hologram_shader(spec), hologram_sockets(spec, frame, units_per_mm)
+        )
+    except HoeError as error:
+        properties.problem = str(error)
+        raise
+    if wavelength is not None and not _takes_wavelength(material):
+        use_wavelength(material, wavelength)
+    properties.problem = ""
+    return changed
+
+
+def refresh_changed() -> None:
+    """Refresh every hologram whose properties have changed; a timer does so in a window.
+
+    What is wrong with one is kept in its ``hologram.problem``, and the others go on.
+    """
+    for material in changes.taken():
+        if material.hologram.enabled:
+            try:
+                refresh(material)
+            except HoeError:
+                # It stands in the property, where a panel shows it.
+                continue
+
+
+def hologram_node(material: bpy.types.Material) -> bpy.types.Node | None:
+    """Find the node that runs the hologram's shader.
+
+    Args:
+        material: Any material.
+
+    Returns:
+        The node, or None.
+    """
+    tree = material.node_tree
+    for node in tree.nodes if tree is not None else ():
+        if node.bl_idname == "ShaderNodeScript" and node.script is not None:
+            name: str = node.script.name
+            if name.startswith(f"{_SHADER}_"):
+                return node
+    return None
+
+
+def register() -> None:
+    """Refresh holograms when their properties change."""
+    changes.listen(refresh_changed)
+
+
+def unregister() -> None:
+    """Undo ``register``."""
+    changes.stop()
+
+
+def _properties(material: bpy.types.Material) -> bpy.types.PropertyGroup:
+    if not has_properties():
+        raise HoeError("materials have no hologram properties; call hoe_addon.register() first")
+    return material.hologram
+
+
+def _bring_up_to_date(
+    material: bpy.types.Material, source: ShaderSource, values: dict[str, nodes.SocketValue]
+) -> bool:
+    node = hologram_node(material)
+    if node is None:
+        _add_node(material, source, values)
+        return True
+    before = node.script
+    changed = before.name != f"{source.name}_{source.digest}.osl"
+    if changed:
+        nodes.set_script(node, source)
+        _drop_unused(before)
+    nodes.set_values(node, values)
+    return changed
+
+
+def _add_node(
+    material: bpy.types.Material, source: ShaderSource, values: dict[str, nodes.SocketValue]
+) -> None:
+    tree = material.node_tree or nodes.new_tree(material)
+    node = nodes.add_script_node(tree, source, values)
+    node.location = (-300.0, 0.0)
+    output = tree.get_output_node("CYCLES") or tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(nodes.output_socket(node, "result"), output.inputs["Surface"])
+
+
+def _drop_unused(text: bpy.types.Text) -> None:
+    # Else a .blend collects a text for every setting that was ever tried. A text counts itself.
+    if text.library is None and text.users <= int(text.use_fake_user):
+        bpy.data.texts.remove(text)
+
+
+def _takes_wavelength(material: bpy.types.Material) -> bool:
+    node = hologram_node(material)
+    return node is not None and nodes.input_socket(node, "wavelength_nm").is_linked

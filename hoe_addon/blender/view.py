@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One look through a device: render it, measure it, keep it."""
+
+import json
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import resources
+from ..core.photometry import Photometry, measure
+from ..files import replacing, write_text
+from ..model.document import to_document
+from ..model.field import field_mask
+from . import exr
+from .denoise import denoise
+from .device import DeviceScene
+from .render import COMBINED, Progress, quiet_stdout, render_layers
+
+DISPLAY_LAYER = "Combined_display"
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """What the eye sees, scene-linear.
+
+    Attributes:
+        picture: All light, shape ``(height, width, 3)``, top row first.
+        display: The share that comes from the display, same shape.
+        seconds: Time that the render took.
+    """
+
+    picture: NDArray[np.float32]
+    display: NDArray[np.float32]
+    seconds: float
+
+
+def render_view(device: DeviceScene, progress: Progress | None = None) -> View:
+    """Render what the eye sees.
+
+    Args:
+        device: The device in its scene.
+        progress: Told after every part.
+
+    Returns:
+        The picture, and the display's share of it.
+
+    Raises:
+        RenderError: Blender gave no usable picture.
+    """
+    started = time.perf_counter()
+    layers = render_layers(device.scene, (COMBINED, DISPLAY_LAYER), progress)
+    return View(layers[COMBINED], layers[DISPLAY_LAYER], time.perf_counter() - started)
+
+
+def view_metrics(device: DeviceScene, view: View) -> dict[str, Any]:
+    """What a report says of a view; every number carries its unit in its name."""
+    unit = device.spec.render.luminance_per_unit_cd_m2
+    height, width, _ = view.picture.shape
+    inside = field_mask(device.spec, width, height)
+    return {
+        "device": device.spec.name,
+        "settings": to_document(device.spec.render),
+        "eye": to_document(device.spec.eye),
+        "seconds": round(view.seconds, 3),
+        "samples": device.scene.cycles.samples,
+        "picture": _as_dict(measure(view.picture, unit)),
+        "display_field": {
+            "display_light": _as_dict(measure(view.display[inside], unit)),
+            "all_light": _as_dict(measure(view.picture[inside], unit)),
+        },
+        "blender": bpy.app.version_string,
+        "hoe_addon": resources.version(),
+    }
+
+
+def save_view(device: DeviceScene, view: View, folder: Path, *, clean: bool) -> dict[str, Any]:
+    """Write view.exr, view.png, view.blend and metrics.json; each is whole or not there.
+
+    Args:
+        device: The device in its scene.
+        view: Its view.
+        folder: Folder that exists.
+        clean: Whether view.png is denoised; view.exr and the numbers never are.
+
+    Returns:
+        What metrics.json holds.
+
+    Raises:
+        HoeError: A file cannot be written.
+    """
+    metrics = {**view_metrics(device, view), "png_denoised": clean}
+    exr.write(folder / "view.exr", view.picture)
+    shown = clean_picture(view) if clean else view.picture
+    save_png(device.scene, shown, folder / "view.png")
+    save_blend(folder / "view.blend")
+    write_text(folder / "metrics.json", (json.dumps(metrics, indent=2), "\n"))
+    return metrics
+
+
+def clean_picture(view: View) -> NDArray[np.float32]:
+    """The view without noise; display and room are denoised apart, for their noise differs."""
+    return denoise(view.display) + denoise(view.picture - view.display)
+
+
+def save_png(scene: bpy.types.Scene, pixels: NDArray[np.float32], path: Path) -> None:
+    """Write a picture as the scene shows it: with its exposure and view transform.
+
+    Args:
+        scene: Scene whose view settings are taken.
+        pixels: Scene-linear, shape ``(height, width, 3)``, top row first.
+        path: The file.
+
+    Raises:
+        HoeError: The file cannot be written.
+    """
+    height, width, _ = pixels.shape
+    image = bpy.data.images.new("Shown", width, height, float_buffer=True)
+    rgba = np.ones((height, width, 4), dtype=np.float32)
+    rgba[..., :3] = pixels[::-1]
+    image.pixels.foreach_set(rgba.ravel())
+    settings = scene.render.image_settings
+    kept = settings.media_type, settings.file_format, settings.color_mode, settings.color_depth
+    try:
+        settings.media_type = "IMAGE"
+        settings.file_format, settings.color_mode, settings.color_depth = "PNG", "RGB", "8"
+        with replacing(path) as part:
+            image.save_render(str(part), scene=scene)
+    finally:
+        settings.media_type = kept[0]
+        settings.file_format, settings.color_mode, settings.color_depth = kept[1:]
+        bpy.data.images.remove(image)
+
+
+def save_blend(path: Path) -> None:
+    """Write all that is open as a .blend, which renders the same without this add-on."""
+    with replacing(path) as part, quiet_stdout():
+        bpy.ops.wm.save_as_mainfile(
+            filepath=str(part), copy=True, compress=True, check_existing=False
+        )
+
+
+def _as_dict(photometry: Photometry) -> dict[str, float | None]:
+    """Numbers for JSON, which knows no NaN: black has no colour."""
+    values = asdict(photometry)
+    return {name: None if np.isnan(value) else value for name, value in values.items()}

@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``demo``: the first preset, straight ahead and from nine pupils, in under three minutes."""
+
+import argparse
+import time
+from typing import Any
+
+from .eyebox import summary, write_survey
+from .picture_options import device_of, open_device, progress_bar
+
+_DESCRIPTION = """Render the preset two_hologram_ar straight ahead (view.*) and its 3x3 eyebox (eyebox.*, views/).
+"""
+
+_PRESET = "two_hologram_ar"
+_VIEW = ("render.size=[640,480]", "render.samples=64")
+_EYEBOX_SIZE = (256, 192)
+_EYEBOX_SAMPLES = 48
+_FIELD_SAMPLES = 256
+
+
+def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
+    """Add the command to the parser.
+
+    Args:
+        subparsers: Where the commands are.
+    """
+    parser = subparsers.add_parser(
+        "demo", help="the AR light guide: one view and its eyebox", description=_DESCRIPTION
+    )
+    parser.add_argument("--out", metavar="DIR", default="out/demo", help="folder for the results")
+    parser.set_defaults(run=run, device=_PRESET, assignments=[], size=None)
+    parser.set_defaults(samples=None, seed=None, mode=None)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Render everything and say what came out.
+
+    Args:
+        args: Arguments as registered.
+
+    Returns:
+        Exit code.
+    """
+    from ..files import writable_folder
+
+    started = time.perf_counter()
+    spec = device_of(args, _VIEW)
+    folder = writable_folder(args.out)
+    views = writable_folder(folder / "views")
+    device = open_device(args, spec)
+
+    from ..blender.view import render_view, save_view
+
+    with progress_bar("view") as progress:
+        view = render_view(device, progress)
+    metrics = save_view(device, view, folder, clean=True)
+    render = device.scene.render
+    render.resolution_x, render.resolution_y = _EYEBOX_SIZE
+    device.scene.cycles.samples = _EYEBOX_SAMPLES
+    with progress_bar("eyebox") as progress:
+        report = write_survey(device, folder, views, _FIELD_SAMPLES, True, progress)
+    field = metrics["display_field"]["display_light"]
+    print(f"results: {folder.resolve()}")
+    print(f"view.png: {spec.title}")
+    print(
+        f"picture: mean {metrics['picture']['mean_cd_m2']:.1f} cd/m2, display's light over its "
+        f"field {field['mean_cd_m2']:.1f} cd/m2, {metrics['samples']} samples per pixel"
+    )
+    print(summary(report))
+    print(f"time: {time.perf_counter() - started:.0f} s after start-up")
+    return 0

@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``eyebox``: the device seen from a grid of pupil positions."""
+
+import argparse
+import json
+from typing import TYPE_CHECKING, Any
+
+from .picture_options import (
+    add_picture_options,
+    device_of,
+    open_device,
+    progress_bar,
+    size,
+)
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from ..blender.device import DeviceScene
+
+_DESCRIPTION = """Look through a device from a grid of pupil positions. Writes eyebox.png (a labelled contact sheet),
+eyebox.json (per position: pupil centre in mm; mean, min and max luminance of a white display over
+its field in cd/m2, with the standard error of the mean; uniformity = min / max; mean u'v') and
+views/ (an EXR and a PNG per position). The luminances are measured without the room's light.
+"""
+
+_FIELD_SAMPLES = 512
+
+
+def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
+    """Add the command to the parser.
+
+    Args:
+        subparsers: Where the commands are.
+    """
+    parser = subparsers.add_parser(
+        "eyebox", help="the device from a grid of pupil positions", description=_DESCRIPTION
+    )
+    add_picture_options(parser)
+    add = parser.add_argument
+    add("--grid", metavar="NXxNY", type=size, help="number of positions along x and y")
+    add("--pitch-mm", metavar="X,Y", type=_pair, help="distance of neighbours along x and y in mm")
+    add(
+        "--field-samples",
+        metavar="N",
+        type=int,
+        default=_FIELD_SAMPLES,
+        help=f"samples per cell of the luminance measurement (default {_FIELD_SAMPLES})",
+    )
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Survey the eyebox and write the results.
+
+    Args:
+        args: Arguments as registered.
+
+    Returns:
+        Exit code.
+    """
+    from ..core.errors import SpecError
+    from ..files import writable_folder
+
+    if args.field_samples < 4:
+        raise SpecError(f"--field-samples: must be at least 4, got {args.field_samples}")
+    changes = []
+    if args.grid is not None:
+        changes.append(f"eyebox.grid={json.dumps(args.grid)}")
+    if args.pitch_mm is not None:
+        changes.append(f"eyebox.pitch_mm={json.dumps(args.pitch_mm)}")
+    spec = device_of(args, changes)
+    folder = writable_folder(args.out)
+    views = writable_folder(folder / "views")
+    with progress_bar("eyebox") as progress:
+        report = write_survey(
+            open_device(args, spec), folder, views, args.field_samples, args.denoise, progress
+        )
+    print(f"{folder}: eyebox.png, eyebox.json, views/")
+    print(summary(report))
+    return 0
+
+
+def write_survey(
+    device: "DeviceScene",
+    folder: "Path",
+    views: "Path",
+    field_samples: int,
+    clean: bool,
+    progress: Any,
+) -> dict[str, Any]:
+    """Survey the eyebox of a device and write everything.
+
+    Args:
+        device: The device in its scene.
+        folder: Where eyebox.png and eyebox.json go.
+        views: Where the single views go.
+        field_samples: Samples per cell of the luminance measurement.
+        clean: Whether PNG files are denoised.
+        progress: Told the finished share.
+
+    Returns:
+        What eyebox.json holds.
+    """
+    from ..blender import exr
+    from ..blender.eyebox import survey
+    from ..blender.view import clean_picture, save_png
+    from ..files import write_text
+    from .contact_sheet import write_contact_sheet
+
+    found: list[dict[str, Any]] = []
+    for result in survey(device, field_samples, progress):
+        name = result.position.name
+        exr.write(views / f"{name}.exr", result.view.picture)
+        shown = clean_picture(result.view) if clean else result.view.picture
+        save_png(device.scene, shown, views / f"{name}.png")
+        found.append(
+            {
+                "name": name,
+                "column": result.position.column,
+                "row": result.position.row,
+                "pupil_mm": list(result.position.centre_mm),
+                **result.field.to_dict(),
+                "seconds": round(result.view.seconds, 3),
+            }
+        )
+    report = _report(device, found, field_samples)
+    write_text(folder / "eyebox.json", (json.dumps(report, indent=2), "\n"))
+    write_contact_sheet(folder / "eyebox.png", views, report)
+    return report
+
+
+def summary(report: dict[str, Any]) -> str:
+    """One line on a survey."""
+    means = [position["mean_cd_m2"] for position in report["positions"]]
+    return (
+        f"white field: brightest pupil {max(means):.1f} cd/m2, darkest {min(means):.1f} cd/m2, "
+        f"uniformity over the eyebox {report['eyebox_uniformity']:.3f} (min / max of the means)"
+    )
+
+
+def _report(
+    device: "DeviceScene", positions: list[dict[str, Any]], field_samples: int
+) -> dict[str, Any]:
+    from ..model.document import to_document
+    from ..model.field import field_degrees
+
+    spec = device.spec
+    means = [position["mean_cd_m2"] for position in positions]
+    return {
+        "device": spec.name,
+        "grid": list(spec.eyebox.grid),
+        "pitch_mm": list(spec.eyebox.pitch_mm),
+        "pupil_diameter_mm": spec.eye.pupil_diameter_mm,
+        "field_deg": list(field_degrees(spec)),
+        "display_luminance_cd_m2": spec.display.luminance_cd_m2,
+        "measured": "white display, no other light, whole field",
+        "field_samples": field_samples,
+        "settings": to_document(spec.render),
+        "eyebox_uniformity": min(means) / max(means) if max(means) > 0.0 else 0.0,
+        "positions": positions,
+    }
+
+
+def _pair(text: str) -> list[float]:
+    try:
+        x, y = (float(part) for part in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be two numbers X,Y, got {text!r}") from None
+    return [x, y]

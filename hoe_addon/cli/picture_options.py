@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Options that all commands with a picture share, and the way they change a device."""
+
+import argparse
+import json
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from ..core.errors import HoeError
+
+if TYPE_CHECKING:
+    from ..blender.device import DeviceScene
+    from ..blender.render import Progress
+    from ..model.device import DeviceSpec
+
+
+def add_picture_options(parser: argparse.ArgumentParser) -> None:
+    """Add what sets a picture's size, cost and content.
+
+    Args:
+        parser: Parser of one command.
+    """
+    add = parser.add_argument
+    add("device", metavar="PRESET|FILE.json", help="name of a preset, or a device's JSON file")
+    add("--out", metavar="DIR", required=True, help="folder for the results, made if need be")
+    add("--size", metavar="WxH", type=size, help="width and height of a picture in pixels")
+    add("--samples", metavar="N", type=int, help="samples per pixel")
+    add("--seed", metavar="N", type=int, help="seed of all random numbers: same seed, same picture")
+    add("--mode", choices=("spectral", "preview"), help="all wavelengths, or one for a quick look")
+    add(
+        "--set",
+        metavar="PATH=VALUE",
+        action="append",
+        default=[],
+        dest="assignments",
+        help="change a field of the device, such as guide.medium=1.5 or eye.position_mm=[0,1,0]; "
+        "may be given more than once",
+    )
+    add(
+        "--no-denoise",
+        action="store_false",
+        dest="denoise",
+        help="leave the noise in PNG files; EXR files and numbers are never denoised",
+    )
+
+
+def size(text: str) -> tuple[int, int]:
+    """Read ``WxH``.
+
+    Args:
+        text: Two whole numbers with an x between.
+
+    Returns:
+        The numbers.
+
+    Raises:
+        ArgumentTypeError: It is not so.
+    """
+    try:
+        width, height = (int(part) for part in text.lower().split("x"))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be like 640x480, got {text!r}") from None
+    if width < 1 or height < 1:
+        raise argparse.ArgumentTypeError(f"both numbers must be at least 1, got {text!r}")
+    return width, height
+
+
+def assignments(args: argparse.Namespace) -> list[str]:
+    """All changes that the options ask for, in the form of ``--set``.
+
+    Args:
+        args: Arguments with the options of ``add_picture_options``.
+
+    Returns:
+        Texts ``path=value``; those of ``--set`` come first, so that an option of its own wins.
+    """
+    options = {"size": args.size, "samples": args.samples, "seed": args.seed, "mode": args.mode}
+    given = {name: value for name, value in options.items() if value is not None}
+    own = [f"render.{name}={json.dumps(value)}" for name, value in given.items()]
+    return [*args.assignments, *own]
+
+
+def device_of(args: argparse.Namespace, more: Sequence[str] = ()) -> "DeviceSpec":
+    """Read the device that the options name, with their changes.
+
+    Args:
+        args: Arguments with the options of ``add_picture_options``.
+        more: Further changes, in the form of ``--set``.
+
+    Returns:
+        The valid device.
+
+    Raises:
+        SpecError: The document, or a change, is not valid.
+    """
+    from ..model.document import load_device
+
+    return load_device(args.device, [*assignments(args), *more])
+
+
+def open_device(args: argparse.Namespace, spec: "DeviceSpec") -> "DeviceScene":
+    """Build a device in a new, empty Blender file.
+
+    Args:
+        args: Arguments with the options of ``add_picture_options``.
+        spec: The device that ``device_of`` gave.
+
+    Returns:
+        The device in its scene.
+
+    Raises:
+        HoeError: This Blender cannot render it.
+    """
+    import bpy
+
+    from ..blender.device import build_device
+    from ..model.document import find_device
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    if scene is None:
+        raise HoeError("Blender has no scene to build in")
+    return build_device(scene, spec, find_device(args.device).parent)
+
+
+@contextmanager
+def progress_bar(label: str) -> "Iterator[Progress]":
+    """A progress bar on stderr, shown on a terminal only.
+
+    Args:
+        label: What is being done.
+
+    Yields:
+        The function to tell the finished share to.
+    """
+    from tqdm import tqdm
+
+    form = "{l_bar}{bar}| {elapsed} < {remaining}"
+    with tqdm(total=1.0, desc=label, disable=None, bar_format=form, leave=False) as bar:
+        yield lambda done: bar.update(done - bar.n) and None
