@@ -89,7 +89,7 @@ def survey(
     Args:
         device: The device in its scene; its camera is moved, and put back at the end.
         field_samples: Samples per cell of the luminance measurement, at least 4.
-        progress: Told after every part of a view, and after every position.
+        progress: Told after every part of a view.
 
     Yields:
         The positions, row by row from the top left.
@@ -98,25 +98,25 @@ def survey(
         RenderError: Blender gave no usable picture.
     """
     positions = list(pupil_positions(device.spec))
-    place = tuple(device.eye.location)
-    white = picture("white", built_in("white", 16, 16))
+    render = device.scene.render
+    kept = tuple(device.eye.location), render.use_persistent_data
     try:
+        # Only the camera moves between the views: the scene need not be prepared again.
+        render.use_persistent_data = True
+        with white_field(device):
+            fields = [_field_at(device, position, field_samples) for position in positions]
         for number, position in enumerate(positions):
             device.eye.location = position.centre_mm
             view = render_view(device, _share_of(progress, number, len(positions)))
-            with white_field(device, white):
-                field = measure_field(device, field_samples)
-            yield PupilResult(position, view, field)
-            if progress is not None:
-                progress((number + 1) / len(positions))
+            yield PupilResult(position, view, fields[number])
     finally:
-        device.eye.location = place
-        bpy.data.images.remove(white)
+        device.eye.location, render.use_persistent_data = kept
 
 
 @contextlib.contextmanager
-def white_field(device: DeviceScene, white: bpy.types.Image) -> Iterator[None]:
+def white_field(device: DeviceScene) -> Iterator[None]:
     """Show white on the display, switch the room off, and look at exactly the field."""
+    white = picture("white", built_in("white", 16, 16))
     scene, camera = device.scene, device.eye.data
     texture = next(
         node
@@ -153,6 +153,12 @@ def white_field(device: DeviceScene, white: bpy.types.Image) -> Iterator[None]:
     finally:
         for owner, name, value in kept:
             setattr(owner, name, value)
+        bpy.data.images.remove(white)
+
+
+def _field_at(device: DeviceScene, position: PupilPosition, samples: int) -> FieldLuminance:
+    device.eye.location = position.centre_mm
+    return measure_field(device, samples)
 
 
 def measure_field(device: DeviceScene, samples: int) -> FieldLuminance:
@@ -190,4 +196,4 @@ def measure_field(device: DeviceScene, samples: int) -> FieldLuminance:
 def _share_of(progress: Progress | None, number: int, count: int) -> Callable[[float], None] | None:
     if progress is None:
         return None
-    return lambda done: progress((number + 0.75 * done) / count)
+    return lambda done: progress((number + done) / count)

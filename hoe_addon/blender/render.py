@@ -21,7 +21,7 @@ type Progress = Callable[[float], None]
 
 COMBINED = "Combined"
 
-_PATHS_PER_PART = 3_000_000
+_PATHS_PER_PART = 5_000_000
 """Camera paths in one part: seconds of work, so that progress moves and a stop is soon heard.
 
 The parts depend on picture and samples only, never on time: same seed, same picture.
@@ -55,8 +55,9 @@ def render_layers(
     with _kept_settings(scene), tempfile.TemporaryDirectory(prefix="hoe_render_") as folder:
         path = Path(folder) / "layers.exr"
         write_float_exr(scene, path, layers=True)
-        # With persistent data Cycles keeps the first part's offset: all parts would be the same.
-        scene.render.use_persistent_data = False
+        if step < total:
+            # With persistent data Cycles keeps the first part's offset: all would be the same.
+            scene.render.use_persistent_data = False
         for first in range(0, total, step):
             count = min(step, total - first)
             for layer, part in _render_part(scene, path, layers, first, count).items():

@@ -57,6 +57,12 @@ def set_up(
     _flatten_shutter_curve(scene)
 
 
+def set_picture(scene: bpy.types.Scene, size: tuple[int, int], samples: int) -> None:
+    """Set width and height in pixels, and samples per pixel."""
+    scene.render.resolution_x, scene.render.resolution_y = size
+    scene.cycles.samples = samples
+
+
 def carry_time_on_rows(scene: bpy.types.Scene) -> None:
     """Make ray time exact and chosen: (row + 1) / rows, counted from the top row 0.
 

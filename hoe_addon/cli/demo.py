@@ -7,16 +7,18 @@ import time
 from typing import Any
 
 from .eyebox import summary, write_survey
-from .picture_options import device_of, open_device, progress_bar
+from .picture_options import device_of, open_device
+from .progress import progress_bar
 
-_DESCRIPTION = """Render the preset two_hologram_ar straight ahead (view.*) and its 3x3 eyebox (eyebox.*, views/).
+_DESCRIPTION = """\
+Render the preset two_hologram_ar straight ahead (view.*) and its 3x3 eyebox (eyebox.*, views/).
 """
 
 _PRESET = "two_hologram_ar"
-_VIEW = ("render.size=[640,480]", "render.samples=64")
-_EYEBOX_SIZE = (256, 192)
-_EYEBOX_SAMPLES = 48
-_FIELD_SAMPLES = 256
+_VIEW = ("render.size=[640,480]", "render.samples=32")
+_EYEBOX_SIZE = (200, 150)
+_EYEBOX_SAMPLES = 32
+_FIELD_SAMPLES = 128
 
 
 def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
@@ -50,14 +52,13 @@ def run(args: argparse.Namespace) -> int:
     views = writable_folder(folder / "views")
     device = open_device(args, spec)
 
+    from ..blender.render_settings import set_picture
     from ..blender.view import render_view, save_view
 
     with progress_bar("view") as progress:
         view = render_view(device, progress)
     metrics = save_view(device, view, folder, clean=True)
-    render = device.scene.render
-    render.resolution_x, render.resolution_y = _EYEBOX_SIZE
-    device.scene.cycles.samples = _EYEBOX_SAMPLES
+    set_picture(device.scene, _EYEBOX_SIZE, _EYEBOX_SAMPLES)
     with progress_bar("eyebox") as progress:
         report = write_survey(device, folder, views, _FIELD_SAMPLES, True, progress)
     field = metrics["display_field"]["display_light"]

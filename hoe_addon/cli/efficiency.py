@@ -59,9 +59,9 @@ def run(args: argparse.Namespace) -> int:
     Returns:
         Exit code.
     """
+    from ..files import write_text
     from ..model import fields
     from ..model.document import load_hologram
-    from ..files import write_text
 
     for wavelength_nm in args.wavelengths:
         fields.wavelength_value("--wavelengths", wavelength_nm)

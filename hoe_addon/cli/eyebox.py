@@ -6,20 +6,16 @@ import argparse
 import json
 from typing import TYPE_CHECKING, Any
 
-from .picture_options import (
-    add_picture_options,
-    device_of,
-    open_device,
-    progress_bar,
-    size,
-)
+from .picture_options import add_picture_options, device_of, open_device, size
+from .progress import progress_bar
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from ..blender.device import DeviceScene
 
-_DESCRIPTION = """Look through a device from a grid of pupil positions. Writes eyebox.png (a labelled contact sheet),
+_DESCRIPTION = """\
+Look through a device from a grid of pupil positions. Writes eyebox.png (a labelled contact sheet),
 eyebox.json (per position: pupil centre in mm; mean, min and max luminance of a white display over
 its field in cd/m2, with the standard error of the mean; uniformity = min / max; mean u'v') and
 views/ (an EXR and a PNG per position). The luminances are measured without the room's light.

@@ -4,15 +4,13 @@
 
 import argparse
 import json
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..core.errors import HoeError
 
 if TYPE_CHECKING:
     from ..blender.device import DeviceScene
-    from ..blender.render import Progress
     from ..model.device import DeviceSpec
 
 
@@ -123,20 +121,3 @@ def open_device(args: argparse.Namespace, spec: "DeviceSpec") -> "DeviceScene":
     if scene is None:
         raise HoeError("Blender has no scene to build in")
     return build_device(scene, spec, find_device(args.device).parent)
-
-
-@contextmanager
-def progress_bar(label: str) -> "Iterator[Progress]":
-    """A progress bar on stderr, shown on a terminal only.
-
-    Args:
-        label: What is being done.
-
-    Yields:
-        The function to tell the finished share to.
-    """
-    from tqdm import tqdm
-
-    form = "{l_bar}{bar}| {elapsed} < {remaining}"
-    with tqdm(total=1.0, desc=label, disable=None, bar_format=form, leave=False) as bar:
-        yield lambda done: bar.update(done - bar.n) and None

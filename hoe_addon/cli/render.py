@@ -5,9 +5,11 @@
 import argparse
 from typing import Any
 
-from .picture_options import add_picture_options, device_of, open_device, progress_bar
+from .picture_options import add_picture_options, device_of, open_device
+from .progress import progress_bar
 
-_DESCRIPTION = """Render what the eye sees through a device. Writes view.exr (32-bit float, scene-linear Rec. 709),
+_DESCRIPTION = """\
+Render what the eye sees through a device. Writes view.exr (32-bit float, scene-linear Rec. 709),
 view.png (as shown on a screen), view.blend (opens and renders in Blender without this add-on) and
 metrics.json (settings, seconds, luminance in cd/m2, mean u'v').
 """

@@ -50,9 +50,9 @@ def run(args: argparse.Namespace) -> int:
     Returns:
         Exit code.
     """
+    from ..files import replacing, write_pieces
     from ..model.document import load_hologram
     from ..model.reading import naming
-    from ..files import replacing, write_pieces
     from .ray_files import ray_table, read_rays, result_lines
 
     spec = load_hologram(args.hologram)
@@ -73,13 +73,8 @@ def _engine(name: str) -> "Callable[[HologramSpec, RayTable], TraceResult]":
 
 
 def _trace_cycles(spec: "HologramSpec", rays: "RayTable") -> "TraceResult":
-    from tqdm import tqdm
-
     from ..blender.trace import trace_cycles
+    from .progress import progress_bar
 
-    with tqdm(total=1.0, desc="cycles", disable=None, bar_format="{l_bar}{bar}| {elapsed}") as bar:
-
-        def show(done: float) -> None:
-            bar.update(done - bar.n)
-
-        return trace_cycles(spec, rays, show)
+    with progress_bar("cycles") as progress:
+        return trace_cycles(spec, rays, progress)

@@ -11,6 +11,7 @@ Points on the display, wavelengths and points on the lens come from a rank-1 seq
 random shift for each part of the rays; the scatter of the parts gives the standard error.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,10 +27,10 @@ from .device_light import Beam, DeviceLight, extent, projection
 from .device_surfaces import DeviceSurfaces, surfaces_of
 
 _PARTS = 16
-"""Parts with a shift of their own; enough of them for a fair standard error."""
+"""Least number of parts with a shift of their own: enough for a fair standard error."""
 
-_RAYS_AT_ONCE = 25000
-"""Rays of one walk; parts are walked together up to this number, which needs some 100 MB."""
+_RAYS_AT_ONCE = 12_500
+"""Rays of one walk: their branches still fit into a processor's cache."""
 
 _FIELD_SLACK = 1e-9
 """Relative. Rounding must not drop rays that arrive at the very edge of the field."""
@@ -103,22 +104,24 @@ def eyebox_luminance(
     source = DeviceLight.of(spec, device, light)
     pupils = _Pupils(places_mm, spec.eye.pupil_diameter_mm, source.half_field, grid)
     rng = np.random.default_rng(seed)
-    energy = tracer.EnergyBalance()
+    energies: list[tracer.EnergyBalance] = []
     fields: list[FloatArray] = []
-    count = rays // _PARTS
-    for parts in _batches(count):
+    for count, parts in _batches(rays):
         beam = source.launch(count, parts, rng)
         walk = tracer.walk_tree(beam.rays, device.parts, device.receiver, weight_cut=weight_cut)
-        _add(energy, walk.energy)
+        energies.append(walk.energy)
         fields.append(pupils.collect(walk.landed, beam, parts, device))
-    return _result(places_mm, np.concatenate(fields), grid, energy)
+    whole = np.concatenate(fields)
+    return _result(places_mm, whole, grid, _mean(energies, len(whole)))
 
 
-def _batches(count: int) -> list[int]:
-    """Return how many parts of so many rays are walked together, batch by batch."""
-    together = min(_PARTS, max(1, _RAYS_AT_ONCE // count))
-    full, rest = divmod(_PARTS, together)
-    return [together] * full + [rest] * (rest > 0)
+def _batches(rays: int) -> list[tuple[int, int]]:
+    """Return the rays of a part and the number of parts of each walk."""
+    parts = max(_PARTS, math.ceil(rays / _RAYS_AT_ONCE))
+    count = rays // parts
+    together = min(parts, max(1, _RAYS_AT_ONCE // count))
+    full, rest = divmod(parts, together)
+    return [(count, together)] * full + [(count, rest)] * (rest > 0)
 
 
 def _result(
@@ -126,16 +129,21 @@ def _result(
 ) -> EyeboxLuminance:
     """Return means and errors of the parts' fields, shape (parts, N, cells, 3)."""
     means = fields.mean(axis=2)
-    error = means[..., 1].std(axis=0, ddof=1) / np.sqrt(_PARTS)
+    error = means[..., 1].std(axis=0, ddof=1) / math.sqrt(len(fields))
     xyz = means.mean(axis=0)
     maps = fields[..., 1].mean(axis=0).reshape(-1, *grid)
     return EyeboxLuminance(places_mm, xyz[:, 1], error, xyz, maps, energy)
 
 
-def _add(total: tracer.EnergyBalance, part: tracer.EnergyBalance) -> None:
-    """Add the energy of some parts, the mean over all parts being the whole."""
-    for name in ("launched", "landed", "absorbed", "escaped", "pruned"):
-        setattr(total, name, getattr(total, name) + getattr(part, name) / _PARTS)
+def _mean(walks: list[tracer.EnergyBalance], parts: int) -> tracer.EnergyBalance:
+    """Return the mean over all parts of the walks' energies."""
+    return tracer.EnergyBalance(
+        launched=math.fsum(walk.launched for walk in walks) / parts,
+        landed=math.fsum(walk.landed for walk in walks) / parts,
+        absorbed=math.fsum(walk.absorbed for walk in walks) / parts,
+        escaped=math.fsum(walk.escaped for walk in walks) / parts,
+        pruned=math.fsum(walk.pruned for walk in walks) / parts,
+    )
 
 
 @dataclass(frozen=True, eq=False)

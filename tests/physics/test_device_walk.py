@@ -11,14 +11,11 @@ import pytest
 
 from hoe_addon.core import colour
 from hoe_addon.core.errors import SpecError
-from hoe_addon.core.orders import Branch
 from hoe_addon.core.spectrum import line
-from hoe_addon.core.tracer import EnergyBalance, Grating
-from hoe_addon.core.tracer.surfaces import LocalRays
+from hoe_addon.core.tracer import EnergyBalance
 from hoe_addon.core.wavelength_sampling import by_significance
 from hoe_addon.model.device import LightGuideSpec
 from hoe_addon.model.device_light import white_light
-from hoe_addon.model.device_surfaces import surfaces_of
 from hoe_addon.model.device_walk import EyeboxLuminance, eyebox_luminance
 from hoe_addon.model.document import device_from
 from hoe_addon.resources import preset_paths
@@ -290,43 +287,3 @@ def test_a_pupil_behind_the_lens_is_refused() -> None:
 def test_white_light_has_the_white_point() -> None:
     uv = colour.uv_prime(colour.xyz_of(white_light(device().display)))
     assert uv == pytest.approx(colour.uv_prime(colour.white_point("D65")), abs=1e-6)
-
-
-def test_faces_are_covered_once(rng: np.random.Generator) -> None:
-    document = device()
-    surfaces = surfaces_of(document).parts
-    places = rng.uniform((-24.0, -15.0, -RELIEF), (36.0, 15.0, -RELIEF), (5_000, 3)) * 1e-3
-    for z in (-RELIEF, -RELIEF - THICKNESS):
-        places[:, 2] = z * 1e-3
-        covers = np.zeros(len(places))
-        for surface in surfaces:
-            local = surface.frame.point_to_local(places)
-            covers += surface.aperture.contains(local) & (abs(local[:, 2]) < 1e-9)
-        assert np.all(covers == 1.0)
-
-
-def test_a_patch_on_the_world_face_is_turned_about_y() -> None:
-    document = json.loads(preset_paths()["two_hologram_ar"].read_text(encoding="utf-8"))
-    out = patch("out", 1.0, (10.0, 10.0), E)
-    sine = GREEN_NM / PERIOD_NM / INDEX
-    # In the patch's frame the light travels toward +x and +z, its own outward normal.
-    out["recording"]["reference"]["direction"] = [sine, 0.0, math.sqrt(1.0 - sine**2)]
-    out["recording"]["object"] = {"kind": "plane", "direction": [0.0, 0.0, -1.0], "index": INDEX}
-    out["face"] = "world"
-    out["efficiency"]["table"] = {"R": {"1": E}}
-    document["holograms"][1] = out
-    spec = device_from(document)
-    assert isinstance(spec, LightGuideSpec)
-    grating = next(
-        part
-        for part in surfaces_of(spec).parts
-        if isinstance(part, Grating) and part.frame.rotation[0, 0] < 0.0
-    )
-    corner = np.array([5.9, 4.9, spec.guide.face_z_mm("world")]) * 1e-3
-    assert grating.aperture.contains(grating.frame.point_to_local(corner))
-    heading = np.array([[-sine, 0.0, -math.sqrt(1.0 - sine**2)]])
-    local = LocalRays(
-        np.zeros((1, 3)), grating.frame.vector_to_local(heading), np.array([GREEN_NM * 1e-9])
-    )
-    onward, _status = grating.follow(local, Branch(1, reflected=True))
-    assert grating.frame.vector_to_world(onward)[0] == pytest.approx([0, 0, 1], abs=1e-7)

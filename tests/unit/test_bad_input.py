@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from hoe_addon import files as output
-from hoe_addon.cli import main
+from hoe_addon.cli import COMMANDS, main
 from hoe_addon.files import OutputError, replacing, writable_folder
 
 LENS = Path(__file__).parents[1] / "documents" / "lens.json"
@@ -238,7 +238,7 @@ def test_a_failure_on_the_way_keeps_the_old_file(folder: Path) -> None:
 OPTIONS = {
     "no command": (
         [],
-        "COMMAND: is missing, must be one of presets, render, eyebox, trace, efficiency, bench, demo",
+        f"COMMAND: is missing, must be one of {', '.join(COMMANDS)}",
     ),
     "unknown command": (["paint"], "COMMAND: invalid choice: 'paint'"),
     "no list": (

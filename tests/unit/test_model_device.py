@@ -99,7 +99,7 @@ def test_patch_as_hologram() -> None:
     assert hologram.media.front == "air"
     assert hologram.surface.size_mm == patch.size_mm
     assert spec.guide.face_z_mm("eye") == -18.0
-    assert spec.guide.face_z_mm("world") == -19.0
+    assert spec.guide.face_z_mm("world") == -18.0 - spec.guide.thickness_mm
     with pytest.raises(SpecError, match="in_coupler, out_coupler"):
         spec.patch("lost")
 
