@@ -32,13 +32,6 @@ float hoe_sinc_pi(float x)
     return abs(x) <= 0.5 ? hoe_sinc_pi_near_zero(x) : hoe_sin_pi(x) / (M_PI * x);
 }
 
-// sin(pi x) / (N sin(pi x / N)), smooth through every multiple of N; its sign is left out.
-float hoe_dirichlet(float x, float levels)
-{
-    float reduced = x - levels * round(x / levels);
-    return hoe_sinc_pi(reduced) / hoe_sinc_pi(reduced / levels);
-}
-
 // Phase depth alpha in waves: (n - 1) / (n0 - 1) * lambda0 / lambda.
 float hoe_phase_depth(float a, vector b, vector c_um2, float design_wavelength_nm, float wavelength_nm)
 {
@@ -48,14 +41,23 @@ float hoe_phase_depth(float a, vector b, vector c_um2, float design_wavelength_n
 }
 
 // |D_m|^2 at phase depth alpha (in waves); levels 0 is the continuous relief.
-// Swanson (1989), MIT Lincoln Laboratory TR 854; derivation in core/kinoform.py.
-float hoe_kinoform_efficiency(int order, float alpha, float levels)
+// Swanson (1989), MIT Lincoln Laboratory TR 854; derivation in core/kinoform.py. Both forms are
+// sin(pi (alpha - m)) over something that is zero with it: where that happens, the quotient of two
+// sinc is used. |sin(pi (alpha - m))| is the same for all orders, so the caller computes it once:
+// sine_alpha = hoe_sin_pi(alpha). Signs are left out, the result is a square.
+float hoe_kinoform_efficiency(int order, float alpha, float sine_alpha, float levels)
 {
-    if (levels < 2.0) {
-        float amplitude = hoe_sinc_pi(alpha - order);
-        return amplitude * amplitude;
+    float distance = alpha - order;
+    float step_factor = 1.0;
+    float step_width = 1.0;
+    if (levels >= 2.0) {
+        distance -= levels * round(distance / levels);
+        step_factor = hoe_sinc_pi(order / levels);
+        step_width = hoe_sinc_pi_near_zero(distance / levels);
     }
-    float amplitude = hoe_sinc_pi(order / levels) * hoe_dirichlet(alpha - order, levels);
+    float wave = abs(distance) <= 0.5 ? hoe_sinc_pi_near_zero(distance)
+                                      : sine_alpha / (M_PI * distance);
+    float amplitude = step_factor * wave / step_width;
     return amplitude * amplitude;
 }
 

@@ -11,7 +11,8 @@
   ``display_material``, ``filter_material``, ``absorber_material``, ``picture``.
 - A hologram's properties, after ``hoe_addon.register()``: ``write_spec``, ``read_spec``,
   ``read_frame``, ``Frame``; then ``refresh`` or ``refresh_changed`` for the shader.
-- Results: ``render_layers``, ``trace_cycles``.
+- Results: ``render_view``, ``save_view``, ``survey``, ``render_layers``, ``denoise``,
+  ``trace_cycles``.
 """
 
 from ..core.wavelength_sampling import by_significance
@@ -25,8 +26,10 @@ from ..model.document import (
 )
 from ..model.hologram import HologramSpec
 from ..shading.hologram import Frame
+from .denoise import denoise
 from .device import DeviceScene, build_device
 from .eye import add_eye, set_pupil
+from .eyebox import survey
 from .guide import add_guide, patch_frame
 from .light_engine import add_light_engine
 from .materials import (
@@ -44,6 +47,7 @@ from .render import render_layers
 from .render_settings import set_up
 from .spectral import SpectralScene, spectral_scene
 from .trace import trace_cycles
+from .view import render_view, save_view
 
 __all__ = [
     "DeviceScene",
@@ -57,6 +61,7 @@ __all__ = [
     "add_light_engine",
     "build_device",
     "by_significance",
+    "denoise",
     "device_from",
     "dielectric_material",
     "display_material",
@@ -73,10 +78,13 @@ __all__ = [
     "refresh",
     "refresh_changed",
     "render_layers",
+    "render_view",
     "require_osl",
+    "save_view",
     "set_pupil",
     "set_up",
     "spectral_scene",
+    "survey",
     "thin_lens_material",
     "to_document",
     "trace_cycles",

@@ -35,7 +35,8 @@ from ..model.hologram import HologramSpec, PlaneSurface, SideMedia
 from ..model.recording import PlaneWaveSpec, PointSourceSpec, RecordingSpec
 from . import meshes, nodes
 from .materials import dielectric_material, hologram_material
-from .render import Progress, quiet_stdout
+from .quiet import captured_output
+from .render import Progress
 from .render_settings import set_up
 from .spectral import SpectralScene, spectral_scene
 
@@ -185,7 +186,7 @@ class _Stand:
         self.scene.cycles.transmission_bounces = self.scene.cycles.glossy_bounces = _BOUNCES
         self.scene.cycles.min_light_bounces = _BOUNCES
         wall, processor = time.perf_counter(), time.process_time()
-        with quiet_stdout():
+        with captured_output():
             bpy.ops.render.render(scene=self.scene.name)
         return time.perf_counter() - wall, time.process_time() - processor
 
@@ -201,7 +202,7 @@ def _bench_scene(size: tuple[int, int]) -> Iterator[_Stand]:
     before = {kind: set(getattr(bpy.data, kind)) for kind in kinds}
     scene = bpy.data.scenes.new("hoe bench")
     try:
-        with quiet_stdout():
+        with captured_output():
             set_up(scene, samples=1, seed=0, spectral=True, max_bounces=_BOUNCES)
             stand = _Stand(scene, size)
         yield stand

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..core.errors import RenderError
 from . import exr
-from .render import quiet_stdout
+from .quiet import captured_output
 from .render_settings import write_float_exr
 
 
@@ -46,10 +46,10 @@ def denoise(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
             scene.render.resolution_x, scene.render.resolution_y = width, height
             scene.render.resolution_percentage = 100
             write_float_exr(scene, clean)
-            with quiet_stdout():
+            with captured_output() as said:
                 bpy.ops.render.render(write_still=True, scene=scene.name)
             if not clean.exists():
-                raise RenderError("Blender's denoiser wrote no picture")
+                raise RenderError(f"Blender's denoiser wrote no picture: {' '.join(said[-3:])}")
             return exr.read(clean)
         finally:
             bpy.data.scenes.remove(scene)

@@ -50,6 +50,12 @@ class DeviceScene:
     room: bpy.types.Collection
     spectral: SpectralScene
 
+    @property
+    def camera(self) -> bpy.types.Camera:
+        """The eye's lens and pupil."""
+        assert isinstance(self.eye.data, bpy.types.Camera)
+        return self.eye.data
+
 
 def build_device(scene: bpy.types.Scene, spec: LightGuideSpec, folder: Path) -> DeviceScene:
     """Build a device in a scene.

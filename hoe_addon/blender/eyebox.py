@@ -8,7 +8,7 @@ no other light, exactly the display's field, in cells of about half a degree.
 
 import contextlib
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -103,8 +103,7 @@ def survey(
     try:
         # Only the camera moves between the views: the scene need not be prepared again.
         render.use_persistent_data = True
-        with white_field(device):
-            fields = [_field_at(device, position, field_samples) for position in positions]
+        fields = fields_at(device, positions, field_samples)
         for number, position in enumerate(positions):
             device.eye.location = position.centre_mm
             view = render_view(device, _share_of(progress, number, len(positions)))
@@ -117,7 +116,7 @@ def survey(
 def white_field(device: DeviceScene) -> Iterator[None]:
     """Show white on the display, switch the room off, and look at exactly the field."""
     white = picture("white", built_in("white", 16, 16))
-    scene, camera = device.scene, device.eye.data
+    scene, camera = device.scene, device.camera
     texture = next(
         node
         for node in device.panel.active_material.node_tree.nodes
@@ -156,9 +155,25 @@ def white_field(device: DeviceScene) -> Iterator[None]:
         bpy.data.images.remove(white)
 
 
-def _field_at(device: DeviceScene, position: PupilPosition, samples: int) -> FieldLuminance:
-    device.eye.location = position.centre_mm
-    return measure_field(device, samples)
+def fields_at(
+    device: DeviceScene, positions: Sequence[PupilPosition], samples: int
+) -> list[FieldLuminance]:
+    """Measure the light of a white display at some pupils; the camera stays at the last.
+
+    Args:
+        device: The device in its scene.
+        positions: Where the pupil is put.
+        samples: Samples per cell, at least 4.
+
+    Returns:
+        Luminance and colour, in the order of the positions.
+    """
+    found: list[FieldLuminance] = []
+    with white_field(device):
+        for position in positions:
+            device.eye.location = position.centre_mm
+            found.append(measure_field(device, samples))
+    return found
 
 
 def measure_field(device: DeviceScene, samples: int) -> FieldLuminance:

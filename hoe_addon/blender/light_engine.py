@@ -7,12 +7,12 @@ import numpy as np
 
 from ..core.spectrum import Spectrum
 from ..model.device_parts import DisplaySpec, LensSpec
+from ..model.device_surfaces import HOUSING_MARGIN_MM
 from . import meshes
 from .materials import absorber_material, display_material, thin_lens_material
 from .spectral import SpectralScene
 
 _HOUSING_SIDES = 64
-_HOUSING_MARGIN = 1.0
 
 
 def add_light_engine(
@@ -58,7 +58,7 @@ def add_light_engine(
     widest = max(lens.diameter_mm, float(np.hypot(*display.size_mm)))
     meshes.add(
         collection,
-        _housing_mesh(lens.diameter_mm / 2.0, widest / 2.0 + _HOUSING_MARGIN, focal),
+        _housing_mesh(lens.diameter_mm / 2.0, widest / 2.0 + HOUSING_MARGIN_MM, focal),
         absorber_material("Housing"),
         parent=parent,
     )
@@ -85,7 +85,7 @@ def _housing_mesh(lens_radius: float, radius: float, length: float) -> bpy.types
     """A can around lens and display, open at the lens: no light enters but through it."""
     angle = np.arange(_HOUSING_SIDES) * (2.0 * np.pi / _HOUSING_SIDES)
     circle = np.stack((np.cos(angle), np.sin(angle)), axis=1)
-    back = length + _HOUSING_MARGIN
+    back = length + HOUSING_MARGIN_MM
     rings = ((lens_radius, 0.0), (radius, 0.0), (radius, back))
     corners = [(r * x, r * y, z) for r, z in rings for x, y in circle]
     polygons: list[tuple[int, ...]] = []

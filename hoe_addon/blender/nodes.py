@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Script nodes: text, bytecode and sockets, so that a .blend renders without this add-on."""
 
-import contextlib
 import hashlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import bpy
 
 from ..shading.interface import Parameter, ParameterKind, parameters
 from ..shading.source import ShaderSource
-from .osl import captured_stderr, compiled
+from .osl import compiled
+from .quiet import captured_output
 
 type SocketValue = float | int | Sequence[float]
 
@@ -50,7 +50,10 @@ def add_script_node(
 def set_script(node: bpy.types.Node, source: ShaderSource) -> None:
     """Give a Script node another text. Sockets that both texts have keep value and links."""
     bytecode = compiled(source)
-    with _quiet_socket_update():
+    # Where the module oslquery is missing (the bpy module ships one that does not fit the
+    # OpenImageIO beside it), Cycles' own socket update prints a traceback. The sockets are made
+    # here, so the message would only frighten.
+    with captured_output():
         node.mode = "INTERNAL"
         node.script = _text_block(source)
     node.bytecode = bytecode
@@ -159,13 +162,3 @@ def _add_socket(
             socket.default_value = (*parameter.default, 1.0)
         case ParameterKind.CLOSURE:
             pass
-
-
-@contextlib.contextmanager
-def _quiet_socket_update() -> Iterator[None]:
-    """Where the module oslquery is missing, Cycles' own socket update prints a traceback.
-
-    The sockets are made here, so the message would only frighten.
-    """
-    with captured_stderr():
-        yield

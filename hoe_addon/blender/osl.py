@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Compile OSL inside Blender, and say plainly where that cannot be done."""
 
-import contextlib
 import os
 import re
 import tempfile
-from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -14,6 +12,7 @@ import bpy
 
 from ..core.errors import MissingOslError, ShaderCompileError
 from ..shading.source import ShaderSource
+from .quiet import captured_output
 
 _DEVICES_WITH_OSL = ("CPU", "OPTIX")
 
@@ -71,27 +70,11 @@ def compiled(source: ShaderSource) -> str:
     with tempfile.TemporaryDirectory(prefix="hoe_osl_") as folder:
         text, bytecode = Path(folder) / f"{source.name}.osl", Path(folder) / f"{source.name}.oso"
         text.write_text(source.text, encoding="utf-8", newline="\n")
-        with captured_stderr() as messages:
+        with captured_output() as messages:
             done = _cycles.osl_compile(str(text), str(bytecode))
         if not done:
             raise ShaderCompileError(f"{source.name}.osl: {_first_error(messages, folder)}")
         return bytecode.read_text(encoding="utf-8")
-
-
-@contextlib.contextmanager
-def captured_stderr() -> Iterator[list[str]]:
-    """Collect what C code writes to the process's stderr; the list is filled at the end."""
-    lines: list[str] = []
-    with tempfile.TemporaryFile(mode="w+", errors="replace") as catcher:
-        kept = os.dup(2)
-        os.dup2(catcher.fileno(), 2)
-        try:
-            yield lines
-        finally:
-            os.dup2(kept, 2)
-            os.close(kept)
-            catcher.seek(0)
-            lines.extend(catcher.read().splitlines())
 
 
 def _first_error(messages: list[str], folder: str) -> str:

@@ -3,7 +3,6 @@
 """Render a scene to numbers, quietly, with progress and a way to stop."""
 
 import contextlib
-import os
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..core.errors import RenderError
 from . import exr
+from .quiet import captured_output
 from .render_settings import write_float_exr
 
 type Progress = Callable[[float], None]
@@ -74,30 +74,16 @@ def _render_part(
     scene.cycles.sample_offset = first
     scene.cycles.sample_subset_length = count
     path.unlink(missing_ok=True)
-    with quiet_stdout():
+    with captured_output() as said:
         bpy.ops.render.render(write_still=True, scene=scene.name)
     if not path.exists():
-        raise RenderError("Blender wrote no picture; see its log for the reason")
+        raise RenderError(f"Blender wrote no picture: {' '.join(said[-3:])}")
     found = {layer: exr.read(path, f"{scene.view_layers[0].name}.{layer}.") for layer in layers}
     for layer, pixels in found.items():
         bad = int(np.count_nonzero(~np.isfinite(pixels)))
         if bad:
             raise RenderError(f"pass {layer} has {bad} values that are not finite")
     return found
-
-
-@contextlib.contextmanager
-def quiet_stdout() -> Iterator[None]:
-    """Keep Blender's own lines ("Saved ...") off the process's standard output."""
-    kept = os.dup(1)
-    silence = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(silence, 1)
-    try:
-        yield
-    finally:
-        os.dup2(kept, 1)
-        os.close(kept)
-        os.close(silence)
 
 
 @contextlib.contextmanager

@@ -47,7 +47,7 @@ def _add_shell(collection: bpy.types.Collection) -> None:
     # Faces of a box: left, right, front, back, floor, ceiling; seen from inside, so turned over.
     inside = shapes.Shape(shell.corners, shell.faces[:, ::-1])
     room = meshes.add(collection, inside.mesh("Room"), pale, paint, wood)
-    room.data.polygons.foreach_set("material_index", [0, 0, 0, 1, 2, 0])
+    room.data.polygons.foreach_set("material_index", [0, 1, 0, 1, 2, 0])
     rug = shapes.box((-1100.0, 2300.0, FLOOR), (1100.0, 3700.0, FLOOR + 12.0))
     wool = materials.matte("Rug", (0.42, 0.38, 0.32))
     meshes.add(collection, rug.mesh("Rug"), wool)

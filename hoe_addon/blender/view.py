@@ -20,7 +20,8 @@ from ..model.field import field_mask
 from . import exr
 from .denoise import denoise
 from .device import DeviceScene
-from .render import COMBINED, Progress, quiet_stdout, render_layers
+from .quiet import captured_output
+from .render import COMBINED, Progress, render_layers
 
 DISPLAY_LAYER = "Combined_display"
 
@@ -139,7 +140,7 @@ def save_png(scene: bpy.types.Scene, pixels: NDArray[np.float32], path: Path) ->
 
 def save_blend(path: Path) -> None:
     """Write all that is open as a .blend, which renders the same without this add-on."""
-    with replacing(path) as part, quiet_stdout():
+    with replacing(path) as part, captured_output():
         bpy.ops.wm.save_as_mainfile(
             filepath=str(part), copy=True, compress=True, check_existing=False
         )

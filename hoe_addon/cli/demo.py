@@ -15,9 +15,10 @@ Render the preset two_hologram_ar straight ahead (view.*) and its 3x3 eyebox (ey
 """
 
 _PRESET = "two_hologram_ar"
-_VIEW = ("render.size=[640,480]", "render.samples=32")
-_EYEBOX_SIZE = (200, 150)
+_VIEW = ("render.size=[640,480]", "render.samples=48")
+_EYEBOX_SIZE = (240, 180)
 _EYEBOX_SAMPLES = 32
+_EYEBOX_FIELD_DEG = 23.0  # little more than the display's, to read it on a small picture
 _FIELD_SAMPLES = 128
 
 
@@ -52,6 +53,9 @@ def run(args: argparse.Namespace) -> int:
     views = writable_folder(folder / "views")
     device = open_device(args, spec)
 
+    from msgspec import structs
+
+    from ..blender.eye import set_pupil
     from ..blender.render_settings import set_picture
     from ..blender.view import render_view, save_view
 
@@ -59,6 +63,7 @@ def run(args: argparse.Namespace) -> int:
         view = render_view(device, progress)
     metrics = save_view(device, view, folder, clean=True)
     set_picture(device.scene, _EYEBOX_SIZE, _EYEBOX_SAMPLES)
+    set_pupil(device.camera, structs.replace(spec.eye, field_deg=_EYEBOX_FIELD_DEG))
     with progress_bar("eyebox") as progress:
         report = write_survey(device, folder, views, _FIELD_SAMPLES, True, progress)
     field = metrics["display_field"]["display_light"]

@@ -114,7 +114,10 @@ def open_device(args: argparse.Namespace, spec: "DeviceSpec") -> "DeviceScene":
     import bpy
 
     from ..blender.device import build_device
+    from ..blender.quiet import forget_removed_engines
     from ..model.document import find_device
+
+    forget_removed_engines()
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene

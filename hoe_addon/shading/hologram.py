@@ -104,7 +104,7 @@ def _shader(spec: HologramSpec, branches: Sequence[Branch], *, folds: bool) -> S
     needed = (*branches, TRANSMITTED_ZERO) if folds else tuple(branches)
     if isinstance(efficiency, KinoformSpec):
         shares = {
-            branch: f"hoe_kinoform_efficiency({branch.order}, alpha, levels)"
+            branch: f"hoe_kinoform_efficiency({branch.order}, alpha, sine_alpha, levels)"
             for branch in needed
             if not branch.reflected
         }
@@ -152,7 +152,8 @@ _KINOFORM_PARAMETERS = " ".join(
 )
 _KINOFORM_PREPARE = (
     "float alpha = hoe_phase_depth(relief_a, relief_b, relief_c_um2, "
-    "design_wavelength_nm, wavelength_nm);"
+    "design_wavelength_nm, wavelength_nm); "
+    "float sine_alpha = hoe_sin_pi(alpha);"
 )
 
 

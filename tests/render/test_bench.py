@@ -5,11 +5,8 @@
 import json
 from pathlib import Path
 
-import pytest
-
-pytest.importorskip("bpy")
-
 import bpy
+import pytest
 
 from hoe_addon.blender.bench import CASES, STOCK, run_benchmark
 from hoe_addon.cli import main

@@ -5,13 +5,10 @@
 from dataclasses import dataclass
 from typing import Any
 
+import bpy
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-
-pytest.importorskip("bpy")
-
-import bpy
 
 from hoe_addon.blender import materials, meshes, nodes
 from hoe_addon.blender.eye import add_eye

@@ -5,12 +5,9 @@
 import json
 from pathlib import Path
 
+import bpy
 import numpy as np
 import pytest
-
-pytest.importorskip("bpy")
-
-import bpy
 
 from hoe_addon.blender.device import DeviceScene, build_device
 from hoe_addon.blender.render import COMBINED, render_layers

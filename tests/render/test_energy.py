@@ -6,14 +6,11 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+import bpy
 import numpy as np
 import pytest
-from numpy.typing import NDArray
-
-pytest.importorskip("bpy")
-
-import bpy
 from mathutils import Euler
+from numpy.typing import NDArray
 
 from hoe_addon.blender import materials, meshes, nodes
 from hoe_addon.blender.osl import compiled

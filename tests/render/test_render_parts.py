@@ -2,12 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A picture rendered in parts is the picture of one long render."""
 
+import bpy
 import numpy as np
 import pytest
-
-pytest.importorskip("bpy")
-
-import bpy
 
 from hoe_addon.blender import render
 from hoe_addon.blender.device import build_device

@@ -5,8 +5,6 @@
 import numpy as np
 import pytest
 
-pytest.importorskip("bpy")
-
 from hoe_addon.blender.trace import trace_cycles
 from hoe_addon.core.ray_law import Status
 from hoe_addon.model.document import hologram_from
