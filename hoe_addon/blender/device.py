@@ -27,6 +27,7 @@ from .room import add_living_room
 from .spectral import SpectralScene, spectral_scene
 
 _PICTURE_WIDTH = 1920
+_ROOM_BOUNCES = 2
 _LIGHT_GROUPS = ("display", "ambient")
 
 
@@ -148,6 +149,8 @@ def _add_engine(
 def _add_room(scene: bpy.types.Scene, spec: LightGuideSpec) -> bpy.types.Collection:
     room = _collection(scene, "Room")
     if spec.room.kind == "living_room":
+        # A third bounce between the walls would add 3 % of light and a quarter of the time.
+        scene.cycles.diffuse_bounces = _ROOM_BOUNCES
         add_living_room(room, spec.room.luminance_cd_m2 / spec.render.luminance_per_unit_cd_m2)
     return room
 

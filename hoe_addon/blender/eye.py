@@ -13,6 +13,9 @@ from .spectral import SpectralScene
 
 _FILTER_DISTANCE = 0.5
 _F_NUMBER = 0.2
+_LEAST_MM = 100.0
+"""Least focal length and sensor width. Blender takes neither below 1 mm, without a word, and a
+measurement narrows the sensor to the display's field."""
 _FAR = 1e7
 
 
@@ -46,14 +49,16 @@ def add_eye(
 def set_pupil(camera: bpy.types.Camera, spec: EyeSpec) -> None:
     """Give a camera the field, the pupil and the focus of an eye.
 
-    Blender's aperture is focal length over f-number. The focal length is chosen for the pupil, in
-    the camera's own millimetres, and the sensor for the field.
+    Blender's aperture is focal length over f-number. The focal length is chosen freely, in the
+    camera's own millimetres, the f-number for the pupil, and the sensor for the field.
     """
     # aperture radius (scene units) = focal length (mm) * 1e-3 / (2 * f-number)
-    camera.dof.aperture_fstop = _F_NUMBER
-    camera.lens = spec.pupil_diameter_mm * _F_NUMBER * 1e3
+    width = 2.0 * math.tan(math.radians(spec.field_deg) / 2.0)
+    lens = max(spec.pupil_diameter_mm * _F_NUMBER * 1e3, _LEAST_MM, _LEAST_MM / width)
+    camera.lens = lens
+    camera.dof.aperture_fstop = lens * 1e-3 / spec.pupil_diameter_mm
     camera.sensor_fit = "HORIZONTAL"
-    camera.sensor_width = 2.0 * camera.lens * math.tan(math.radians(spec.field_deg) / 2.0)
+    camera.sensor_width = lens * width
     camera.dof.use_dof = True
     camera.dof.focus_distance = _FAR if spec.focus_mm is None else spec.focus_mm
     camera.clip_start = 1e-3

@@ -14,7 +14,8 @@ from ..core.errors import MissingOslError, ShaderCompileError
 from ..shading.source import ShaderSource
 from .quiet import captured_output
 
-_DEVICES_WITH_OSL = ("CPU", "OPTIX")
+_DEVICES_WITH_OSL = ("NONE", "OPTIX")
+"""Kinds of GPU in the preferences. Where none is chosen, Cycles takes the CPU."""
 
 
 def has_osl() -> bool:

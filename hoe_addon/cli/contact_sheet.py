@@ -12,7 +12,7 @@ from ..files import replacing
 
 _MARGIN = 8
 _CAPTION = 34
-_TITLE = 40
+_TITLE = 54
 _PAPER = (0.10, 0.10, 0.11)
 _INK = (0.92, 0.92, 0.92)
 _FAINT = (0.66, 0.66, 0.68)
@@ -40,12 +40,12 @@ def write_contact_sheet(path: Path, views: Path, report: dict[str, Any]) -> None
     )
     oiio.ImageBufAlgo.fill(sheet, _PAPER)
     field_x, field_y = report["field_deg"]
-    _text(sheet, _MARGIN, 26, 17, _INK, f"{report['device']}: {columns} x {rows} pupils")
+    _text(sheet, _MARGIN, 24, 17, _INK, f"{report['device']}: {columns} x {rows} pupils")
     subtitle = (
         f"pupil {report['pupil_diameter_mm']:g} mm, field {field_x:.1f} x {field_y:.1f} deg; "
         "L: white display over its field"
     )
-    _text(sheet, _MARGIN + width + _MARGIN, 26, 13, _FAINT, subtitle)
+    _text(sheet, _MARGIN, 44, 13, _FAINT, subtitle)
     for position in report["positions"]:
         x = _MARGIN + position["column"] * cell_width
         y = _TITLE + position["row"] * cell_height
