@@ -26,7 +26,7 @@ from ..model.document import (
 )
 from ..model.hologram import HologramSpec
 from ..shading.hologram import Frame
-from .denoise import denoise
+from .denoiser import denoise
 from .device import DeviceScene, build_device
 from .eye import add_eye, set_pupil
 from .eyebox import survey

@@ -35,6 +35,7 @@ def set_up(
     settings.seed = seed
     settings.use_animated_seed = False
     settings.use_adaptive_sampling = False
+    settings.time_limit = 0.0
     settings.use_denoising = False
     settings.sample_clamp_direct = 0.0
     settings.sample_clamp_indirect = 0.0
@@ -51,6 +52,7 @@ def set_up(
     scene.render.use_border = False
     scene.render.use_compositing = False
     scene.render.use_sequencer = False
+    scene.render.use_multiview = False
     scene.render.resolution_percentage = 100
     scene.render.pixel_aspect_x = scene.render.pixel_aspect_y = 1.0
     settings.film_exposure = 1.0

@@ -33,6 +33,8 @@ from .render_settings import carry_time_on_rows, set_up
 
 _ROWS = 1023
 """Rays in one render. Odd, so that no row has the time 0.5, which means preview."""
+_LEAST_ROWS = 5
+"""Odd too; Blender makes no picture lower than 4 rows."""
 
 
 def trace_cycles(
@@ -123,10 +125,10 @@ class _Probe:
         _set_world(scene, direction_world_shader())
 
     def load(self, rays: RayTable) -> None:
-        """Take other rays; an even number is filled up by one that repeats the last."""
+        """Take other rays; an even number, or too few, are filled up by repeating the last."""
         last = len(rays) - 1
         self._rows = len(rays)
-        rows = np.arange(self._rows + (self._rows % 2 == 0)).clip(max=last)
+        rows = np.arange(max(_LEAST_ROWS, self._rows + (self._rows % 2 == 0))).clip(max=last)
         # Blender's cameras look along -z; the rays are counted from the bottom row.
         flip = np.array((1.0, 1.0, -1.0))
         source = ray_camera_shader(

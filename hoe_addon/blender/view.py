@@ -18,7 +18,7 @@ from ..files import replacing, write_text
 from ..model.document import to_document
 from ..model.field import field_mask
 from . import exr
-from .denoise import denoise
+from .denoiser import denoise
 from .device import DeviceScene
 from .quiet import captured_output
 from .render import COMBINED, Progress, render_layers
@@ -140,10 +140,17 @@ def save_png(scene: bpy.types.Scene, pixels: NDArray[np.float32], path: Path) ->
 
 def save_blend(path: Path) -> None:
     """Write all that is open as a .blend, which renders the same without this add-on."""
-    with replacing(path) as part, captured_output():
-        bpy.ops.wm.save_as_mainfile(
-            filepath=str(part), copy=True, compress=True, check_existing=False
-        )
+    preferences = bpy.context.preferences.filepaths
+    kept = preferences.save_version
+    try:
+        # The part exists already, and Blender would keep it beside the file as an older version.
+        preferences.save_version = 0
+        with replacing(path) as part, captured_output():
+            bpy.ops.wm.save_as_mainfile(
+                filepath=str(part), copy=True, compress=True, check_existing=False
+            )
+    finally:
+        preferences.save_version = kept
 
 
 def _as_dict(photometry: Photometry) -> dict[str, float | None]:

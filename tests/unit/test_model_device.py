@@ -82,7 +82,8 @@ def test_primaries_must_mix_the_white() -> None:
 
 
 def test_touching_patches_are_fine() -> None:
-    load_device(AR, ["holograms.in_coupler.center_mm=[15, 0]"])
+    # The out-coupler ends at x = 14, and the in-coupler is 6 mm wide.
+    load_device(AR, ["holograms.in_coupler.center_mm=[17, 0]"])
 
 
 def test_guide_medium_is_named_where_it_stands() -> None:
@@ -126,7 +127,7 @@ def test_override_by_index_and_by_name() -> None:
     ]
     spec = device_from(override(document, changes))
     assert isinstance(spec, LightGuideSpec)
-    assert spec.patch("out_coupler").size_mm == (20.0, 22.0)
+    assert spec.patch("out_coupler").size_mm == (20.0, 20.0)
     assert spec.patch("in_coupler").hologram(spec.guide).orders == (0, 1)
     assert (spec.eye.focus_mm, spec.title, spec.description) == (1000.0, "far and wide", "42")
     assert document == to_document(load_device(AR))

@@ -33,7 +33,8 @@ def shortest(value: float) -> float:
     Returns:
         The number as a person would have typed it.
     """
-    return float(str(np.float32(value)))
+    # Not str(): its digits follow numpy's print options, which any module may have changed.
+    return float(np.format_float_scientific(np.float32(value), unique=True))
 
 
 def rounded_down(share: float) -> float:
