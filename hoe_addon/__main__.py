@@ -5,6 +5,8 @@
 import sys
 
 from .cli import main
+from .cli.interrupt import exit_on_interrupt
 
 if __name__ == "__main__":
+    exit_on_interrupt()
     sys.exit(main())

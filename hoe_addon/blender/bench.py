@@ -39,6 +39,7 @@ from .quiet import captured_output
 from .render import Progress
 from .render_settings import set_up
 from .spectral import SpectralScene, spectral_scene
+from .temporary import temporary_scene
 
 INDEX = 1.5
 ORDERS = (1, 3, 9)
@@ -198,19 +199,11 @@ class _Stand:
 @contextmanager
 def _bench_scene(size: tuple[int, int]) -> Iterator[_Stand]:
     """A scene of its own, removed with all that was made for it."""
-    kinds = ("objects", "meshes", "cameras", "materials", "worlds", "texts", "node_groups")
-    before = {kind: set(getattr(bpy.data, kind)) for kind in kinds}
-    scene = bpy.data.scenes.new("hoe bench")
-    try:
+    with temporary_scene("hoe bench") as scene:
         with captured_output():
             set_up(scene, samples=1, seed=0, spectral=True, max_bounces=_BOUNCES)
             stand = _Stand(scene, size)
         yield stand
-    finally:
-        bpy.data.scenes.remove(scene)
-        for kind, known in before.items():
-            for item in set(getattr(bpy.data, kind)) - known:
-                getattr(bpy.data, kind).remove(item)
 
 
 def _add_faces(scene: bpy.types.Scene) -> bpy.types.Mesh:

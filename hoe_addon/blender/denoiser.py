@@ -2,14 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Denoise a finished picture with Blender's own denoiser (Open Image Denoise)."""
 
-import tempfile
-from pathlib import Path
-
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.errors import RenderError
+from ..files import scratch_folder
 from . import exr
 from .quiet import captured_output
 from .render_settings import write_float_exr
@@ -32,8 +30,8 @@ def denoise(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
     """
     height, width, _ = pixels.shape
     scene = bpy.data.scenes.new("Denoise")
-    with tempfile.TemporaryDirectory(prefix="hoe_denoise_") as folder:
-        noisy, clean = Path(folder) / "noisy.exr", Path(folder) / "clean.exr"
+    with scratch_folder() as folder:
+        noisy, clean = folder / "noisy.exr", folder / "clean.exr"
         exr.write(noisy, pixels)
         image = bpy.data.images.load(str(noisy))
         tree = _tree(image)

@@ -15,9 +15,9 @@ import bpy
 from ..core.spectrum import Spectrum
 from ..core.wavelength_sampling import by_significance
 from ..model.device import LightGuideSpec
-from ..model.device_parts import DisplaySpec
 from ..model.document import image_path
-from ..shading.pictures import built_in
+from ..model.field import field_degrees
+from ..shading.pictures import built_in, check_picture
 from .eye import add_eye
 from .guide import add_guide
 from .light_engine import add_light_engine
@@ -26,7 +26,7 @@ from .render_settings import set_up
 from .room import add_living_room
 from .spectral import SpectralScene, spectral_scene
 
-_PICTURE_WIDTH = 1920
+_PICTURE_SIDE = 1920
 _ROOM_BOUNCES = 2
 _LIGHT_GROUPS = ("display", "ambient")
 
@@ -81,27 +81,30 @@ def build_device(scene: bpy.types.Scene, spec: LightGuideSpec, folder: Path) -> 
     root = _empty(device, "Device", None)
     root.rotation_euler = (math.radians(90.0), 0.0, 0.0)
     add_guide(device, spec.guide, spec.holograms, spectral, parent=root)
-    image = display_image(spec.display, folder)
+    image = display_image(spec, folder)
     panel = _add_engine(device, spec, primaries, image, spectral, root)
     eye = add_eye(device, spec.eye, spectral, parent=root)
     scene.camera = eye
     return DeviceScene(spec, scene, eye, panel, _add_room(scene, spec), spectral)
 
 
-def display_image(display: DisplaySpec, folder: Path) -> bpy.types.Image:
+def display_image(spec: LightGuideSpec, folder: Path) -> bpy.types.Image:
     """The picture of a display as a packed image.
 
     Args:
-        display: The display; its image is a built-in picture or a file.
+        spec: The device; the image of its display is a built-in picture or a file.
         folder: Folder that a file is relative to.
 
     Returns:
         The image.
     """
+    display = spec.display
     path = image_path(display, folder)
     if path is None:
-        height = round(_PICTURE_WIDTH * display.size_mm[1] / display.size_mm[0])
-        return picture(display.image, built_in(display.image, _PICTURE_WIDTH, height))
+        largest = max(display.size_mm)
+        width, height = (max(4, round(_PICTURE_SIDE * side / largest)) for side in display.size_mm)
+        return picture(display.image, built_in(display.image, width, height, field_degrees(spec)))
+    check_picture(path)
     image = bpy.data.images.load(str(path))
     image.pack()
     return image

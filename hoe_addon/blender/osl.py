@@ -4,13 +4,12 @@
 
 import os
 import re
-import tempfile
 from functools import cache
-from pathlib import Path
 
 import bpy
 
 from ..core.errors import MissingOslError, ShaderCompileError
+from ..files import scratch_folder
 from ..shading.source import ShaderSource
 from .quiet import captured_output
 
@@ -68,8 +67,8 @@ def compiled(source: ShaderSource) -> str:
     require_osl()
     import _cycles
 
-    with tempfile.TemporaryDirectory(prefix="hoe_osl_") as folder:
-        text, bytecode = Path(folder) / f"{source.name}.osl", Path(folder) / f"{source.name}.oso"
+    with scratch_folder() as folder:
+        text, bytecode = folder / f"{source.name}.osl", folder / f"{source.name}.oso"
         text.write_text(source.text, encoding="utf-8", newline="\n")
         with captured_output() as messages:
             done = _cycles.osl_compile(str(text), str(bytecode))

@@ -3,7 +3,6 @@
 """Render a scene to numbers, quietly, with progress and a way to stop."""
 
 import contextlib
-import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.errors import RenderError
+from ..files import scratch_folder
 from . import exr
 from .quiet import captured_output
 from .render_settings import write_float_exr
@@ -21,7 +21,7 @@ type Progress = Callable[[float], None]
 
 COMBINED = "Combined"
 
-_PATHS_PER_PART = 5_000_000
+_PATHS_PER_PART = 3_000_000
 """Camera paths in one part: seconds of work, so that progress moves and a stop is soon heard.
 
 The parts depend on picture and samples only, never on time: same seed, same picture.
@@ -52,8 +52,8 @@ def render_layers(
     pixels = scene.render.resolution_x * scene.render.resolution_y
     step = max(1, min(total, _PATHS_PER_PART // pixels))
     sums: dict[str, NDArray[np.float64]] = {}
-    with _kept_settings(scene), tempfile.TemporaryDirectory(prefix="hoe_render_") as folder:
-        path = Path(folder) / "layers.exr"
+    with _kept_settings(scene), scratch_folder() as folder:
+        path = folder / "layers.exr"
         write_float_exr(scene, path, layers=True)
         if step < total:
             # With persistent data Cycles keeps the first part's offset: all would be the same.

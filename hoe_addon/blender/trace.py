@@ -8,6 +8,7 @@ ray time, the hologram diffracts it, and the world answers with the direction in
 
 import contextlib
 from collections.abc import Iterator
+from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -30,9 +31,11 @@ from . import meshes, nodes
 from .osl import compiled, require_osl
 from .render import COMBINED, Progress, render_layers
 from .render_settings import carry_time_on_rows, set_up
+from .temporary import temporary_scene
 
 _ROWS = 1023
 """Rays in one render. Odd, so that no row has the time 0.5, which means preview."""
+_NEAREST_MM, _FARTHEST_MM, _FARTHEST_HIT_MM = 1e-2, 100.0, 1e5
 _LEAST_ROWS = 5
 """Odd too; Blender makes no picture lower than 4 rows."""
 
@@ -65,11 +68,30 @@ def trace_cycles(
     parts = list(_parts(rays))
     with _probe_scene(spec) as probe:
         for done, (branch, chosen) in enumerate(parts, start=1):
-            probe.load(rays.part(chosen))
+            probe.load(_started_near(rays.part(chosen)))
             _read_back(probe, branch, chosen, result)
             if progress is not None:
                 progress(done / len(parts))
     return result
+
+
+def _started_near(rays: RayTable) -> RayTable:
+    """The same rays, started where float32 serves them best; a hopeless one goes away instead.
+
+    A ray that meets the plane starts 10 um to 100 mm before it, on its own line: one that starts
+    on the plane hits there, and one from afar keeps its digits. What never meets the plane, or
+    beyond any element, could be infinite in float32 and spoil its neighbours.
+    """
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        distance = -rays.origin_mm[:, 2] / rays.direction[:, 2]
+        hit = rays.origin_mm + distance[:, None] * rays.direction
+        meets = (distance >= 0.0) & (np.abs(hit).max(axis=1) < _FARTHEST_HIT_MM)
+        start = hit - np.clip(distance, _NEAREST_MM, _FARTHEST_MM)[:, None] * rays.direction
+    return replace(
+        rays,
+        origin_mm=np.where(meets[:, None], start, (0.0, 0.0, 1.0)),
+        direction=np.where(meets[:, None], rays.direction, (0.0, 0.0, 1.0)),
+    )
 
 
 def _parts(rays: RayTable) -> Iterator[tuple[Branch, NDArray[np.int64]]]:
@@ -120,6 +142,7 @@ class _Probe:
         self._camera.custom_mode = "INTERNAL"
         # The near clip would skip an element closer than 0.1 mm to a ray's start.
         self._camera.clip_start = 1e-6
+        self._camera.clip_end = 1e6
         scene.camera = bpy.data.objects.new("hoe probe", self._camera)
         scene.collection.objects.link(scene.camera)
         _set_world(scene, direction_world_shader())
@@ -170,21 +193,11 @@ class _Probe:
 @contextlib.contextmanager
 def _probe_scene(spec: HologramSpec) -> Iterator[_Probe]:
     """A scene of its own, removed with all that was made for it."""
-    before = {kind: set(getattr(bpy.data, kind)) for kind in _DATA_KINDS}
-    scene = bpy.data.scenes.new("hoe probe")
-    try:
+    with temporary_scene("hoe probe") as scene:
         set_up(scene, samples=1, seed=0, spectral=True, max_bounces=8)
         carry_time_on_rows(scene)
         scene.cycles.pixel_filter_type = "BOX"
         yield _Probe(spec, scene)
-    finally:
-        bpy.data.scenes.remove(scene)
-        for kind, known in before.items():
-            for item in set(getattr(bpy.data, kind)) - known:
-                getattr(bpy.data, kind).remove(item)
-
-
-_DATA_KINDS = ("objects", "meshes", "cameras", "materials", "worlds", "texts")
 
 
 def _set_camera_shader(camera: bpy.types.Camera, source: ShaderSource) -> None:

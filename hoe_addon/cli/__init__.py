@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from importlib import import_module
 
 from ..core.errors import CancelledError, HoeError
+from .interrupt import EXIT_INTERRUPTED
 from .parser import Parser
 
 COMMANDS = ("presets", "render", "eyebox", "trace", "efficiency", "bench", "demo")
@@ -20,7 +21,6 @@ COMMANDS = ("presets", "render", "eyebox", "trace", "efficiency", "bench", "demo
 
 EXIT_OK = 0
 EXIT_ERROR = 2
-EXIT_INTERRUPTED = 130
 
 _OPTION = re.compile(r"--[a-z][a-z-]*")
 _NEGATIVE = re.compile(r"-[\d.].*")
@@ -41,7 +41,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except SystemExit as exit_:  # argparse leaves this way after --help
         return int(exit_.code or EXIT_OK)
     except (KeyboardInterrupt, CancelledError):
-        _complain("stopped by the user; nothing was written")
+        _complain("stopped by the user; no unfinished file is left")
         return EXIT_INTERRUPTED
     except HoeError as error:
         _complain(str(error))

@@ -36,7 +36,13 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
         "bench", help="speed beside Cycles' own glass", description=_DESCRIPTION
     )
     add = parser.add_argument
-    add("--json", metavar="FILE|-", help="write the result as JSON, - for the standard output")
+    add(
+        "--json",
+        metavar="FILE|-",
+        nargs="?",
+        const="-",
+        help="write the result as JSON, to the standard output unless a file is named",
+    )
     add(
         "--seconds",
         metavar="S",

@@ -6,8 +6,8 @@ import argparse
 import time
 from typing import Any
 
-from .eyebox import summary, write_survey
-from .picture_options import device_of, open_device
+from .eyebox import EYEBOX_FILES, summary, view_files, write_survey
+from .picture_options import VIEW_FILES, device_of, open_device
 from .progress import progress_bar
 
 _DESCRIPTION = """\
@@ -49,8 +49,8 @@ def run(args: argparse.Namespace) -> int:
 
     started = time.perf_counter()
     spec = device_of(args, _VIEW)
-    folder = writable_folder(args.out)
-    views = writable_folder(folder / "views")
+    folder = writable_folder(args.out, (*VIEW_FILES, *EYEBOX_FILES))
+    views = writable_folder(folder / "views", view_files(spec))
     device = open_device(args, spec)
 
     from msgspec import structs

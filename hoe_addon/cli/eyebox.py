@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ..blender.device import DeviceScene
+    from ..model.device import DeviceSpec
 
 _DESCRIPTION = """\
 Look through a device from a grid of pupil positions. Writes eyebox.png (a labelled contact sheet),
@@ -22,6 +23,10 @@ views/ (an EXR and a PNG per position). The luminances are measured without the 
 """
 
 _FIELD_SAMPLES = 512
+_MAX_FIELD_SAMPLES = 1_000_000
+
+EYEBOX_FILES = ("eyebox.png", "eyebox.json")
+"""What a survey writes into its folder, beside the folder of views."""
 
 
 def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
@@ -59,16 +64,17 @@ def run(args: argparse.Namespace) -> int:
     from ..core.errors import SpecError
     from ..files import writable_folder
 
-    if args.field_samples < 4:
-        raise SpecError(f"--field-samples: must be at least 4, got {args.field_samples}")
+    if not 4 <= args.field_samples <= _MAX_FIELD_SAMPLES:
+        rule = f"must be from 4 to {_MAX_FIELD_SAMPLES}"
+        raise SpecError(f"--field-samples: {rule}, got {args.field_samples}")
     changes = []
     if args.grid is not None:
         changes.append(f"eyebox.grid={json.dumps(args.grid)}")
     if args.pitch_mm is not None:
         changes.append(f"eyebox.pitch_mm={json.dumps(args.pitch_mm)}")
     spec = device_of(args, changes)
-    folder = writable_folder(args.out)
-    views = writable_folder(folder / "views")
+    folder = writable_folder(args.out, EYEBOX_FILES)
+    views = writable_folder(folder / "views", view_files(spec))
     with progress_bar("eyebox") as progress:
         report = write_survey(
             open_device(args, spec), folder, views, args.field_samples, args.denoise, progress
@@ -125,6 +131,14 @@ def write_survey(
     write_text(folder / "eyebox.json", (json.dumps(report, indent=2), "\n"))
     write_contact_sheet(folder / "eyebox.png", views, report)
     return report
+
+
+def view_files(spec: "DeviceSpec") -> list[str]:
+    """Names of the files that a survey writes into the folder of views."""
+    from ..model.eyebox import pupil_positions
+
+    names = [position.name for position in pupil_positions(spec)]
+    return [f"{name}.{kind}" for name in names for kind in ("exr", "png")]
 
 
 def summary(report: dict[str, Any]) -> str:

@@ -9,9 +9,9 @@ from fractions import Fraction
 from typing import NoReturn
 
 from ..core.errors import HoeError
+from ..core.limits import MAX_ORDER
 
 LIST_HELP = "A:B:STEP (B included) or a,b,c"
-MAX_ORDER = 100
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _WHOLE = re.compile(r"[+-]?\d{1,6}", re.ASCII)

@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from ..model.device import DeviceSpec
 
 
+VIEW_FILES = ("view.exr", "view.png", "view.blend", "metrics.json")
+"""What a view writes into its folder."""
+
+
 def add_picture_options(parser: argparse.ArgumentParser) -> None:
     """Add what sets a picture's size, cost and content.
 
@@ -59,7 +63,9 @@ def size(text: str) -> tuple[int, int]:
     try:
         width, height = (int(part) for part in text.lower().split("x"))
     except ValueError:
-        raise argparse.ArgumentTypeError(f"must be like 640x480, got {text!r}") from None
+        raise argparse.ArgumentTypeError(
+            f"must be two whole numbers with an x between, got {text!r}"
+        ) from None
     if width < 1 or height < 1:
         raise argparse.ArgumentTypeError(f"both numbers must be at least 1, got {text!r}")
     return width, height
@@ -93,9 +99,16 @@ def device_of(args: argparse.Namespace, more: Sequence[str] = ()) -> "DeviceSpec
     Raises:
         SpecError: The document, or a change, is not valid.
     """
-    from ..model.document import load_device
+    from ..model.document import find_device, image_path, load_device
+    from ..model.reading import naming
+    from ..shading.pictures import check_picture
 
-    return load_device(args.device, [*assignments(args), *more])
+    spec = load_device(args.device, [*assignments(args), *more])
+    with naming(args.device):
+        path = image_path(spec.display, find_device(args.device).parent)
+        if path is not None:
+            check_picture(path)
+    return spec
 
 
 def open_device(args: argparse.Namespace, spec: "DeviceSpec") -> "DeviceScene":

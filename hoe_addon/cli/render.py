@@ -5,7 +5,7 @@
 import argparse
 from typing import Any
 
-from .picture_options import add_picture_options, device_of, open_device
+from .picture_options import VIEW_FILES, add_picture_options, device_of, open_device
 from .progress import progress_bar
 
 _DESCRIPTION = """\
@@ -40,7 +40,7 @@ def run(args: argparse.Namespace) -> int:
     from ..files import writable_folder
 
     spec = device_of(args)
-    folder = writable_folder(args.out)
+    folder = writable_folder(args.out, VIEW_FILES)
     device = open_device(args, spec)
 
     from ..blender.view import render_view, save_view

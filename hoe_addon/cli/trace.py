@@ -50,13 +50,14 @@ def run(args: argparse.Namespace) -> int:
     Returns:
         Exit code.
     """
-    from ..files import replacing, write_pieces
+    from ..files import refuse_own_input, replacing, write_pieces
     from ..model.document import load_hologram
     from ..model.reading import naming
     from .ray_files import ray_table, read_rays, result_lines
 
     spec = load_hologram(args.hologram)
     rows = read_rays(args.rays)
+    refuse_own_input(args.out, args.hologram, args.rays)
     with replacing(args.out) as temporary:
         with naming(args.hologram):
             result = _engine(args.engine)(spec, ray_table(rows))

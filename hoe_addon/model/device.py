@@ -26,6 +26,7 @@ from .hologram import HologramSpec, Orders, PlaneSurface, SideMedia
 from .medium import MediumRef
 from .recording import RecordingSpec
 
+_THICKEST_MM = 1000.0
 _EDGE_SLACK_MM = 1e-9
 """Patches may touch each other and the rim; this allows for the rounding of their corners."""
 
@@ -53,7 +54,7 @@ class GuideSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         """Check media and sizes."""
         medium.check(self, "medium")
         medium.check(self, "outside")
-        fields.number(self, "thickness_mm", above=0.0)
+        fields.number(self, "thickness_mm", above=0.0, at_most=_THICKEST_MM)
         fields.vector(self, "size_mm", 2, above=0.0)
         fields.vector(self, "center_mm", 2)
         fields.number(self, "relief_mm", above=0.0)
@@ -189,6 +190,9 @@ class LightGuideSpec(
             field_kinds.instance(self, name, kind)
         if not self.holograms:
             raise FieldError("holograms", "must hold at least one hologram", self.holograms)
+        if self.eye.position_mm[2] <= -self.guide.relief_mm:
+            rule = f"must lie before the guide's face at z = {-self.guide.relief_mm:g}"
+            raise FieldError("eye.position_mm[2]", rule, self.eye.position_mm[2])
         for place, patch in enumerate(self.holograms):
             self._check_patch(place, patch)
         names = [patch.name for patch in self.holograms]

@@ -23,6 +23,8 @@ _LEAST_CENTRE_WIDTHS = 3.0
 
 _MIN_PIXELS = 4  # Blender renders nothing smaller
 _MAX_PIXELS = 16384
+_LARGEST_PART_MM = 1000.0
+_MAX_LUMINANCE = 1e9
 _MAX_SAMPLES = 1_000_000
 _MAX_SEED = 2**31 - 1
 _MAX_BOUNCES = 1024
@@ -88,7 +90,7 @@ class DisplaySpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
         """Check the picture, its size and its colours."""
         field_kinds.text(self, "image")
         fields.vector(self, "size_mm", 2, above=0.0)
-        fields.number(self, "luminance_cd_m2", at_least=0.0)
+        fields.number(self, "luminance_cd_m2", at_least=0.0, at_most=_MAX_LUMINANCE)
         if isinstance(self.primaries, str):
             field_kinds.choice(self, "primaries", spectrum.DISPLAY_PRIMARIES)
         elif len(self.primaries) != len("rgb"):
@@ -155,7 +157,7 @@ class EyeSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
     def __post_init__(self) -> None:
         """Check pupil, focus, field and place."""
-        fields.number(self, "pupil_diameter_mm", above=0.0)
+        fields.number(self, "pupil_diameter_mm", above=0.0, at_most=_LARGEST_PART_MM)
         if self.focus_mm is not None:
             fields.number(self, "focus_mm", above=0.0)
         if fields.number(self, "field_deg", above=0.0) >= 180.0:

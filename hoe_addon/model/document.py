@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reading and writing whole documents: holograms and devices, with the version of their format."""
 
+import contextlib
 import json
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -121,8 +122,9 @@ def find_device(name: str | Path) -> Path:
     if str(name) in presets:
         return presets[str(name)]
     path = Path(name)
-    if path.suffix == ".json" or path.exists() or len(path.parts) > 1:
-        return path
+    with contextlib.suppress(OSError):  # such as a name that is too long
+        if path.suffix == ".json" or path.exists() or len(path.parts) > 1:
+            return path
     raise SpecError(f"{name}: is neither a preset ({', '.join(presets)}) nor a file")
 
 
@@ -165,7 +167,10 @@ def image_path(display: DisplaySpec, folder: Path) -> Path | None:
     if display.image in BUILT_IN_IMAGES:
         return None
     path = folder / display.image
-    if not path.is_file():
+    exists = False
+    with contextlib.suppress(OSError):  # such as a name that is too long
+        exists = path.is_file()
+    if not exists:
         rule = f"must be {', '.join(BUILT_IN_IMAGES)} or a file that exists"
         raise FieldError("display.image", rule, display.image)
     return path

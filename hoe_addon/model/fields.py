@@ -15,12 +15,15 @@ from typing import cast
 from msgspec import Struct
 from msgspec.structs import force_setattr
 
+from ..core.limits import MAX_ORDER as MAX_ORDER
 from .field_error import FieldError
 
 WAVELENGTH_RANGE_NM = (200.0, 20000.0)
-MAX_ORDER = 100
 MAX_ORDERS = 30
 SHARE_SLACK = 1e-9
+
+_LARGEST = 1e12
+"""No length, index or luminance is larger; the squares of such numbers still fit into float32."""
 
 
 def _real(field: str, value: object) -> float:
@@ -32,6 +35,8 @@ def _real(field: str, value: object) -> float:
         number = math.inf
     if not math.isfinite(number):
         raise FieldError(field, "must be a finite number", value)
+    if abs(number) > _LARGEST:
+        raise FieldError(field, f"must be at most {_LARGEST:g} in size", value)
     return number
 
 

@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pictures that a display can show without a file: test chart, white field, grid of dots."""
 
+from pathlib import Path
+
 import numpy as np
+import OpenImageIO as oiio  # noqa: N813  (the name that its own documentation uses)
 from numpy.typing import NDArray
 
 from ..model.device_parts import BUILT_IN_IMAGES
@@ -62,6 +65,26 @@ def built_in(
         return np.ones((height, width, 3), dtype=np.float32)
     pixels = _dots(width, height) if name == "dots" else _chart(width, height, field_deg)
     return pixels.astype(np.float32)
+
+
+def check_picture(path: Path) -> None:
+    """Make sure that a display's image file is a picture that can be read whole.
+
+    Args:
+        path: The file.
+
+    Raises:
+        FieldError: It is not one.
+    """
+    source = oiio.ImageInput.open(str(path))
+    pixels = None
+    if source is not None:
+        pixels = source.read_image(0, 0, 0, source.spec().nchannels, oiio.UINT8)
+        source.close()
+    if pixels is None:
+        # OpenImageIO keeps its message until it is asked for.
+        oiio.geterror()
+        raise FieldError("display.image", "must be a picture that can be read", path.name)
 
 
 def dot_centres() -> NDArray[np.float64]:

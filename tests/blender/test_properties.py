@@ -230,29 +230,13 @@ def test_errors_name_the_property(make_material: Make, lens: dict[str, Any]) -> 
         read_spec(material)
 
 
-@pytest.mark.parametrize(
-    ("path", "change"),
-    [
-        (
-            r"recording\.object\.position_mm",
-            {
-                "recording": {
-                    "wavelength_nm": 532,
-                    "object": {"kind": "point", "position_mm": [0, 0, 1e39]},
-                    "reference": PLANE,
-                }
-            },
-        ),
-        (r"surface\.size_mm", {"surface": {"shape": "plane", "size_mm": [1e-9, 1]}}),
-        (r"media\.front\.sellmeier\.b", {"media": {"front": {"sellmeier": {
-            "b": [1e300, 0, 0], "c_um2": [0, 0, 0]}}}}),
-    ],
-)  # fmt: skip
-def test_no_number_is_changed_silently(
-    make_material: Make, lens: dict[str, Any], path: str, change: dict[str, Any]
-) -> None:
-    with pytest.raises(SpecError, match=f"^{path}: is more than a material can hold, got "):
-        write_spec(bpy.data.materials.new("lens"), hologram_from(lens | change))
+def test_no_number_is_changed_silently(make_material: Make, lens: dict[str, Any]) -> None:
+    """A material's size has a least value; a document may go below it."""
+    tiny = hologram_from(lens | {"surface": {"shape": "plane", "size_mm": [1e-9, 1]}})
+    with pytest.raises(
+        SpecError, match=r"^surface\.size_mm: is outside what a material can hold, got "
+    ):
+        write_spec(bpy.data.materials.new("lens"), tiny)
 
 
 def test_not_a_hologram(registered: Any) -> None:

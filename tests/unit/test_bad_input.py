@@ -286,4 +286,6 @@ def test_ctrl_c_leaves_one_line_and_no_file(
     before = sorted(folder.iterdir())
     assert main(trace(folder)) == 130
     assert sorted(folder.iterdir()) == before
-    assert capsys.readouterr().err == "hoe: error: stopped by the user; nothing was written\n"
+    assert (
+        capsys.readouterr().err == "hoe: error: stopped by the user; no unfinished file is left\n"
+    )

@@ -96,7 +96,7 @@ def store(
     stored = getattr(group, field)
     pairs = zip(_listed(stored), _listed(value), strict=True)
     if not all(math.isclose(a, b, rel_tol=_ROUNDING, abs_tol=_SMALLEST) for a, b in pairs):
-        raise FieldError(f"{path}.{field}", "is more than a material can hold", value)
+        raise FieldError(f"{path}.{field}", "is outside what a material can hold", value)
 
 
 def _listed(value: float | Sequence[float]) -> list[float]:
