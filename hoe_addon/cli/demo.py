@@ -15,11 +15,11 @@ Render the preset two_hologram_ar straight ahead (view.*) and its 3x3 eyebox (ey
 """
 
 _PRESET = "two_hologram_ar"
-_VIEW = ("render.size=[640,480]", "render.samples=40")
+_VIEW = ("render.size=[640,480]", "render.samples=32")
 _EYEBOX_SIZE = (216, 162)
-_EYEBOX_SAMPLES = 32
+_EYEBOX_SAMPLES = 24
 _EYEBOX_FIELD_DEG = 23.0  # little more than the display's, to read it on a small picture
-_FIELD_SAMPLES = 128
+_FIELD_SAMPLES = 96
 
 
 def register(subparsers: "argparse._SubParsersAction[Any]") -> None:

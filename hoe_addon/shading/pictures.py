@@ -116,7 +116,7 @@ def _chart(width: int, height: int, field_deg: tuple[float, float]) -> NDArray[n
     _ticks(canvas, field_deg, scale)
     _cross(canvas, scale)
     _text(canvas, "TWO HOLOGRAM AR", (0.0, 3.75 * scale), 0.8 * scale, _WHITE)
-    title = f"{field_deg[0]:.4g} x {field_deg[1]:.4g} DEG"
+    title = f"{field_deg[0]:.3g} x {field_deg[1]:.3g} DEG"
     _text(canvas, title, (0.0, 2.8 * scale), 0.4 * scale, _ACCENT)
     _bars(canvas, scale)
     _letters(canvas, scale)
