@@ -64,7 +64,8 @@ def test_features_appear_at_the_angle_that_the_display_gives_them(
         found_x = (window.sum(axis=0) @ steps) / window.sum() + left
         found_y = (window.sum(axis=1) @ steps) / window.sum() + top
         errors.append((found_x - column, found_y - row))
-    assert len(errors) >= 15
+    # At 532 nm the plate guides the whole field, so that every dot is there.
+    assert len(errors) >= (len(expected) if wavelength_nm == 532 else 15)
     angles = np.degrees(np.hypot(*np.transpose(errors)) * pixel)
     assert angles.max() < FEATURE_DEG
 
