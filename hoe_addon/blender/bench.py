@@ -31,8 +31,10 @@ import bpy
 from ..core.errors import RenderError
 from ..core.wavelength_sampling import by_significance
 from ..model.efficiency import KinoformSpec
-from ..model.hologram import HologramSpec, PlaneSurface, SideMedia
-from ..model.recording import PlaneWaveSpec, PointSourceSpec, RecordingSpec
+from ..model.hologram import HologramSpec, SideMedia
+from ..model.recording import RecordingSpec
+from ..model.surface import PlaneSurface
+from ..model.waves import PlaneWaveSpec, PointSourceSpec
 from . import meshes, nodes
 from .materials import dielectric_material, hologram_material
 from .quiet import captured_output

@@ -7,21 +7,24 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core import kinoform
-from ..core import recording as core
+from ..core import characteristic, kinoform, waves
 from ..core.arrays import FloatArray, as_float
 from ..core.errors import SpecError
 from ..core.orders import Branch
+from ..core.pattern import Pattern
+from ..core.recording import Recording
 from ..core.units import mm_to_m, nm_to_m
 from .efficiency import EfficiencySpec, KinoformSpec
 from .medium import medium_from
-from .recording import PlaneWaveSpec, RecordingSpec, WaveSpec
+from .pattern import PatternSpec
+from .recording import RecordingSpec
+from .waves import PlaneWaveSpec, WaveSpec
 
 type EfficiencyFunction = Callable[[Sequence[Branch], ArrayLike], FloatArray]
 """Base efficiencies of K branches at wavelengths in metres, shape ``(...)`` -> ``(..., K)``."""
 
 
-def wave_from(wave: WaveSpec) -> core.Wave:
+def wave_from(wave: WaveSpec) -> waves.Wave:
     """Make a recording wave of the core.
 
     Args:
@@ -31,12 +34,12 @@ def wave_from(wave: WaveSpec) -> core.Wave:
         The same wave, lengths in metres.
     """
     if isinstance(wave, PlaneWaveSpec):
-        return core.PlaneWave(direction=wave.direction, index=wave.index)
+        return waves.PlaneWave(direction=wave.direction, index=wave.index)
     x, y, z = (float(mm_to_m(value)) for value in wave.position_mm)
-    return core.PointSource((x, y, z), converging=wave.beam == "converging", index=wave.index)
+    return waves.PointSource((x, y, z), converging=wave.beam == "converging", index=wave.index)
 
 
-def recording_from(spec: RecordingSpec) -> core.Recording:
+def recording_from(spec: RecordingSpec) -> Recording:
     """Make a recording of the core.
 
     Args:
@@ -45,11 +48,28 @@ def recording_from(spec: RecordingSpec) -> core.Recording:
     Returns:
         The same recording in SI units.
     """
-    return core.Recording(
+    return Recording(
         object=wave_from(spec.object),
         reference=wave_from(spec.reference),
         wavelength=float(nm_to_m(spec.wavelength_nm)),
     )
+
+
+def pattern_from(spec: PatternSpec) -> Pattern:
+    """Make what is recorded in an element, for the core.
+
+    Args:
+        spec: The recording or the characteristic function of a document.
+
+    Returns:
+        The pattern in SI units.
+    """
+    if isinstance(spec, RecordingSpec):
+        return recording_from(spec)
+    along = np.radians(spec.azimuth_deg)
+    lines = float(spec.lines_per_mm / mm_to_m(1.0))
+    frequency = (lines * float(np.cos(along)), lines * float(np.sin(along)))
+    return characteristic.LinearGrating(frequency, float(nm_to_m(spec.wavelength_nm)))
 
 
 def branches_from(efficiency: EfficiencySpec, orders: Iterable[int]) -> tuple[Branch, ...]:

@@ -10,7 +10,8 @@ from typing import Literal
 
 from msgspec import Struct
 
-from . import field_kinds, fields, medium
+from . import field_kinds, fields, medium, pattern
+from .characteristic import CharacteristicSpec
 from .device_parts import (
     DisplaySpec,
     EyeboxSpec,
@@ -22,9 +23,10 @@ from .device_parts import (
 )
 from .efficiency import ConstantSpec, EfficiencySpec, KinoformSpec, settle_orders
 from .field_error import FieldError
-from .hologram import HologramSpec, Orders, PlaneSurface, SideMedia
+from .hologram import HologramSpec, Orders, SideMedia
 from .medium import MediumRef
 from .recording import RecordingSpec
+from .surface import PlaneSurface
 
 _THICKEST_MM = 1000.0
 _EDGE_SLACK_MM = 1e-9
@@ -83,7 +85,8 @@ class PatchSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         face: Face of the guide that it lies on.
         center_mm: Its centre, x and y, in the frame of the device.
         size_mm: Width and height.
-        recording: The two waves that it was made with.
+        recording: The two waves that it was made with, or
+        characteristic: the function V(x, y) that is recorded in it; exactly one of the two.
         efficiency: How much light each order gets.
         orders: Orders that are traced; those of the table where it is left out.
     """
@@ -92,7 +95,8 @@ class PatchSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     face: Literal["eye", "world"]
     center_mm: tuple[float, float]
     size_mm: tuple[float, float]
-    recording: RecordingSpec
+    recording: RecordingSpec | None = None
+    characteristic: CharacteristicSpec | None = None
     efficiency: EfficiencySpec
     orders: Orders = ()
 
@@ -102,9 +106,8 @@ class PatchSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         field_kinds.choice(self, "face", ("eye", "world"))
         fields.vector(self, "center_mm", 2)
         fields.vector(self, "size_mm", 2, above=0.0)
-        field_kinds.instance(self, "recording", RecordingSpec)
         field_kinds.instance(self, "efficiency", KinoformSpec, ConstantSpec)
-        self.recording.check_clear_of(self.size_mm)
+        pattern.check(self, PlaneSurface(size_mm=self.size_mm))
         settle_orders(self, self.efficiency)
 
     def hologram(self, guide: GuideSpec) -> HologramSpec:
@@ -121,6 +124,7 @@ class PatchSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
             surface=PlaneSurface(size_mm=self.size_mm),
             media=SideMedia(back=guide.medium, front=guide.outside),
             recording=self.recording,
+            characteristic=self.characteristic,
             efficiency=self.efficiency,
             orders=self.orders,
         )

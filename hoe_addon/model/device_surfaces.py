@@ -14,9 +14,10 @@ from ..core import tracer
 from ..core.arrays import BoolArray, FloatArray
 from ..core.orders import Branch
 from ..core.units import mm_to_m
-from .convert import branches_from, efficiency_from, recording_from
+from .convert import branches_from, efficiency_from, pattern_from
 from .device import GuideSpec, LightGuideSpec, PatchSpec
 from .medium import medium_from
+from .pattern import pattern_of
 
 HOUSING_MARGIN_MM = 1.0
 """How far the black housing stands out beyond lens and display, to the sides and to the back."""
@@ -170,7 +171,7 @@ def _grating(guide: GuideSpec, patch: PatchSpec) -> tracer.Grating:
     return tracer.Grating(
         frame=_face_frame(guide, patch.face, patch.center_mm),
         aperture=tracer.Aperture(_rectangle(patch.size_mm)),
-        pattern=recording_from(patch.recording),
+        pattern=pattern_from(pattern_of(patch)),
         index_back=medium_from(guide.medium),
         index_front=medium_from(guide.outside),
         branches=branches_from(patch.efficiency, patch.orders),

@@ -185,7 +185,20 @@ def to_document(spec: msgspec.Struct) -> Document:
     Returns:
         Objects, lists and numbers that give the same spec again; whole numbers without a point.
     """
-    return cast("Document", plain(msgspec.to_builtins(spec)))
+    return cast("Document", _without_absent(plain(msgspec.to_builtins(spec))))
+
+
+def _without_absent(value: object) -> object:
+    """Leave out the one of ``recording`` and ``characteristic`` that an element does not have."""
+    if isinstance(value, list):
+        return [_without_absent(item) for item in cast("list[object]", value)]
+    if not isinstance(value, dict):
+        return value
+    return {
+        name: _without_absent(item)
+        for name, item in cast("Document", value).items()
+        if item is not None or name not in ("recording", "characteristic")
+    }
 
 
 def dump(spec: msgspec.Struct) -> str:

@@ -11,9 +11,8 @@ from ..core.arrays import BoolArray, FloatArray, as_float
 from ..core.errors import SpecError
 from ..core.orders import TRANSMITTED_ZERO, Branch, OrderFan, order_weights
 from ..core.ray_law import Status
-from ..core.recording import characteristic_gradient
 from ..core.units import mm_to_m, nm_to_m
-from .convert import efficiency_from, recording_from
+from .convert import efficiency_from, pattern_from
 from .hologram import HologramSpec
 from .medium import medium_from
 from .rays import RayTable, TraceResult
@@ -59,8 +58,8 @@ def fan(
         efficiency_from(spec.efficiency)(ways, wavelength),
         incident,
         as_float(_NORMAL),
-        characteristic_gradient(recording_from(spec.recording), mm_to_m(as_float(points_mm))),
-        wavelength_nm / spec.recording.wavelength_nm,
+        pattern_from(spec.pattern).gradient(mm_to_m(as_float(points_mm))),
+        wavelength_nm / spec.pattern.wavelength_nm,
         np.where(from_back, index_back, index_front),
         np.where(from_back, index_front, index_back),
         total_internal_reflection=spec.efficiency.total_internal_reflection,

@@ -6,31 +6,17 @@ from typing import Annotated, Literal
 
 from msgspec import Meta, Struct
 
-from . import field_kinds, fields, medium
+from . import field_kinds, medium, pattern
+from .characteristic import CharacteristicSpec
 from .efficiency import ConstantSpec, EfficiencySpec, KinoformSpec, settle_orders
 from .field_error import FieldError
 from .medium import MediumRef
+from .pattern import PatternSpec, pattern_of
 from .recording import RecordingSpec
+from .surface import SURFACES, SurfaceSpec
 
 type Orders = Annotated[tuple[int, ...], Meta(min_length=1)]
 """Diffraction orders to trace; may be left out where the efficiency model lists its own."""
-
-
-class PlaneSurface(Struct, frozen=True, forbid_unknown_fields=True, tag_field="shape", tag="plane"):
-    """A rectangle around the origin in the plane z = 0, its normal along +z.
-
-    Attributes:
-        size_mm: Width and height in mm.
-    """
-
-    size_mm: tuple[float, float]
-
-    def __post_init__(self) -> None:
-        """Check the size."""
-        fields.vector(self, "size_mm", 2, above=0.0)
-
-
-type SurfaceSpec = PlaneSurface
 
 
 class SideMedia(Struct, frozen=True, forbid_unknown_fields=True):
@@ -58,7 +44,8 @@ class HologramSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
         name: Name of the element.
         surface: Its shape.
         media: The media behind and before it.
-        recording: The two waves that it was made with.
+        recording: The two waves that it was made with, or
+        characteristic: the function V(x, y) that is recorded in it; exactly one of the two.
         efficiency: How much light each order gets.
         orders: Orders that are traced, each once; those of the table where it is left out.
     """
@@ -67,21 +54,26 @@ class HologramSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
     name: str
     surface: SurfaceSpec
     media: SideMedia
-    recording: RecordingSpec
+    recording: RecordingSpec | None = None
+    characteristic: CharacteristicSpec | None = None
     efficiency: EfficiencySpec
     orders: Orders = ()
 
     def __post_init__(self) -> None:
         """Check what the parts cannot check alone."""
         field_kinds.text(self, "name")
-        field_kinds.instance(self, "surface", PlaneSurface)
+        field_kinds.instance(self, "surface", *SURFACES)
         field_kinds.instance(self, "media", SideMedia)
-        field_kinds.instance(self, "recording", RecordingSpec)
         field_kinds.instance(self, "efficiency", KinoformSpec, ConstantSpec)
-        self.recording.check_clear_of(self.surface.size_mm)
+        pattern.check(self, self.surface)
         for side in ("back", "front"):
             try:
-                medium.index_at(self.media, side, self.recording.wavelength_nm)
+                medium.index_at(self.media, side, self.pattern.wavelength_nm)
             except FieldError as error:
                 raise error.inside("media") from error
         settle_orders(self, self.efficiency)
+
+    @property
+    def pattern(self) -> PatternSpec:
+        """What is recorded in it."""
+        return pattern_of(self)

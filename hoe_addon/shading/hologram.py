@@ -5,18 +5,15 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..core.orders import REFLECTED_ZERO, TRANSMITTED_ZERO, Branch
 from ..model.convert import branches_from
 from ..model.efficiency import EfficiencySpec, KinoformSpec
 from ..model.hologram import HologramSpec
-from ..model.recording import PlaneWaveSpec, PointSourceSpec, WaveSpec
 from .medium import medium_sockets
+from .part import SocketValues, parameter
+from .pattern import pattern_part
 from .source import ShaderSource, specialised
-
-type SocketValues = dict[str, float | int | tuple[float, float, float]]
+from .surface import surface_part
 
 
 @dataclass(frozen=True)
@@ -64,13 +61,12 @@ def one_order_shader(spec: HologramSpec, branch: Branch) -> ShaderSource:
 
 def unit_efficiency_shader(spec: HologramSpec, branch: Branch) -> ShaderSource:
     """The same shader with all light in one order, to read directions where it carries none."""
-    definitions = _recording_definitions(spec)
-    definitions |= {
+    definitions = {
         "HOE_EFFICIENCY_PARAMETERS": "",
         "HOE_PREPARE_EFFICIENCY": "",
         "HOE_EACH_ORDER(X)": _each_order((branch,), {branch: "1.0"}),
     }
-    return specialised("hoe_hologram", definitions)
+    return _assembled(spec, definitions)
 
 
 def hologram_sockets(spec: HologramSpec, frame: Frame, units_per_mm: float = 1.0) -> SocketValues:
@@ -84,15 +80,13 @@ def hologram_sockets(spec: HologramSpec, frame: Frame, units_per_mm: float = 1.0
     Returns:
         Value by socket identifier; the wavelength comes from another node.
     """
-    recording = spec.recording
     values: SocketValues = {
         "frame_origin": frame.origin,
         "frame_x": frame.x,
         "frame_y": frame.y,
-        "recording_wavelength_nm": recording.wavelength_nm,
     }
-    values |= _wave_sockets("object", recording.object, units_per_mm)
-    values |= _wave_sockets("reference", recording.reference, units_per_mm)
+    values |= pattern_part(spec.pattern, units_per_mm).sockets
+    values |= surface_part(spec.surface, units_per_mm).sockets
     values |= medium_sockets("back", spec.media.back)
     values |= medium_sockets("front", spec.media.front)
     values |= _efficiency_sockets(spec.efficiency)
@@ -113,8 +107,7 @@ def _shader(spec: HologramSpec, branches: Sequence[Branch], *, folds: bool) -> S
         shares = {branch: _share_socket(branch) for branch in dict.fromkeys(needed)}
         parameters = " ".join(_share_parameter(branch) for branch in shares)
         prepare = ""
-    definitions = _recording_definitions(spec)
-    definitions |= {
+    definitions = {
         "HOE_EFFICIENCY_PARAMETERS": parameters,
         "HOE_PREPARE_EFFICIENCY": prepare,
         "HOE_EACH_ORDER(X)": _each_order(branches, shares),
@@ -122,21 +115,25 @@ def _shader(spec: HologramSpec, branches: Sequence[Branch], *, folds: bool) -> S
     if folds:
         definitions["HOE_TOTAL_INTERNAL_REFLECTION"] = "1"
         definitions["HOE_ZERO_ORDER_TRANSMITTED"] = shares[TRANSMITTED_ZERO]
-    return specialised("hoe_hologram", definitions)
+    return _assembled(spec, definitions)
 
 
-def _recording_definitions(spec: HologramSpec) -> dict[str, str]:
-    waves = {"OBJECT": spec.recording.object, "REFERENCE": spec.recording.reference}
-    return {
-        f"HOE_{role}_POINT": "1"
-        for role, wave in waves.items()
-        if isinstance(wave, PointSourceSpec)
+def _assembled(spec: HologramSpec, efficiency: Mapping[str, str]) -> ShaderSource:
+    """The text from its parts; the numbers in them are sockets, so their scale does not matter."""
+    pattern, surface = pattern_part(spec.pattern, 1.0), surface_part(spec.surface, 1.0)
+    definitions = {
+        "HOE_PATTERN_PARAMETERS": pattern.parameters,
+        "HOE_FIND_GRADIENT": pattern.code,
+        "HOE_SURFACE_PARAMETERS": surface.parameters,
+        "HOE_FIND_NORMAL": surface.code,
+        **efficiency,
     }
+    return specialised("hoe_hologram", definitions, pattern.functions + surface.functions)
 
 
 _KINOFORM_PARAMETERS = " ".join(
-    f'{kind} {name} = {default} [[ string label = "{label}", string help = "{words}" ]],'
-    for kind, name, default, label, words in (
+    parameter(*declaration)
+    for declaration in (
         ("float", "levels", "0.0", "Levels", "Steps of the relief; 0 is continuous"),
         (
             "float",
@@ -181,17 +178,6 @@ def _share_parameter(branch: Branch) -> str:
     )
 
 
-def _wave_sockets(role: str, wave: WaveSpec, units_per_mm: float) -> SocketValues:
-    if isinstance(wave, PlaneWaveSpec):
-        unit = np.asarray(wave.direction) / np.linalg.norm(wave.direction)
-        return {f"{role}_source": _triple(unit), f"{role}_index": wave.index}
-    return {
-        f"{role}_source": _triple(np.asarray(wave.position_mm) * units_per_mm),
-        f"{role}_index": wave.index,
-        f"{role}_converging": int(wave.beam == "converging"),
-    }
-
-
 def _efficiency_sockets(efficiency: EfficiencySpec) -> SocketValues:
     if isinstance(efficiency, KinoformSpec):
         return {
@@ -204,8 +190,3 @@ def _efficiency_sockets(efficiency: EfficiencySpec) -> SocketValues:
         for reflected, side in ((False, "T"), (True, "R"))
         for order, share in efficiency.table.shares(side).items()
     }
-
-
-def _triple(vector: NDArray[np.float64]) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in vector)
-    return (x, y, z)

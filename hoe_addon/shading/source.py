@@ -14,6 +14,7 @@ from functools import cache
 
 from .. import resources
 
+_SHADER = re.compile(r"^shader ", re.MULTILINE)
 _INCLUDE = re.compile(r'^#include "(hoe_[a-z_]+\.h)"\n', re.MULTILINE)
 
 
@@ -35,18 +36,20 @@ class ShaderSource:
         return hashlib.sha256(self.text.encode()).hexdigest()[:16]
 
 
-def specialised(name: str, definitions: Mapping[str, str]) -> ShaderSource:
+def specialised(name: str, definitions: Mapping[str, str], functions: str = "") -> ShaderSource:
     """A shipped shader with definitions on top. Same arguments, same bytes.
 
     Args:
         name: File name in `osl/` without its ending.
         definitions: Macro name (with its parameter list, if any) to replacement.
+        functions: OSL functions; they are put before the shader, after all headers.
 
     Returns:
         The flat text.
     """
     head = "".join(f"#define {macro} {value}\n" for macro, value in definitions.items())
-    return ShaderSource(name, f"// Made from {name}.osl by hoe_addon.\n{head}{_flat(name)}")
+    body = _SHADER.sub(lambda start: functions + start.group(), _flat(name), count=1)
+    return ShaderSource(name, f"// Made from {name}.osl by hoe_addon.\n{head}{body}")
 
 
 def array(values: Iterable[float]) -> str:

@@ -12,7 +12,7 @@ from hoe_addon.blender import ids
 from hoe_addon.blender.props import values
 from hoe_addon.core.media import CATALOGUE
 from hoe_addon.model.efficiency import ConstantSpec, KinoformSpec
-from hoe_addon.model.recording import PlaneWaveSpec, PointSourceSpec
+from hoe_addon.model.waves import PlaneWaveSpec, PointSourceSpec
 
 ROUNDED_DOWN = 2.4e-7
 """Two units in the last place of a float32: the next smaller one may have to be taken."""

@@ -108,7 +108,7 @@ def test_units_reach_the_sockets(make_material: Make, lens: dict[str, Any]) -> N
     material = make_material(lens)
     material.hologram.units_per_mm = 0.5
     refresh(material)
-    assert sockets_of(material)["object_source"] == [5.0, 2.5, -50.0]
+    assert sockets_of(material)["object_position"] == [5.0, 2.5, -50.0]
 
 
 def test_kind_recompiles(

@@ -11,15 +11,15 @@ import pytest
 
 from hoe_addon.core import media
 from hoe_addon.core.arrays import unit
+from hoe_addon.core.characteristic import LinearGrating
 from hoe_addon.core.kinoform import efficiency, phase_depth
 from hoe_addon.core.orders import Branch
 from hoe_addon.core.ray_law import Status, diffract
-from hoe_addon.core.recording import PlaneWave, PointSource, Recording, characteristic_gradient
+from hoe_addon.core.recording import Recording
 from hoe_addon.core.tracer import (
     Aperture,
     Dielectric,
     Frame,
-    GradientPattern,
     Grating,
     Rays,
     Rectangle,
@@ -27,6 +27,7 @@ from hoe_addon.core.tracer import (
     walk_sequence,
 )
 from hoe_addon.core.units import MM, NM
+from hoe_addon.core.waves import PlaneWave, PointSource
 
 REFERENCE = Path(__file__).resolve().parents[1] / "reference"
 AXIS = np.array([0.0, 0.0, 1.0])
@@ -62,7 +63,7 @@ def test_two_point_hologram(row: dict[str, Any]) -> None:
         PlaneWave(tuple(case["reference_direction"]), index),
         case["recording_wavelength_nm"] * NM,
     )
-    gradient = characteristic_gradient(recording, np.array(row["point_mm"]) * MM)
+    gradient = recording.gradient(np.array(row["point_mm"]) * MM)
     ratio = row["wavelength_nm"] * NM / recording.wavelength
     out, status = diffract(unit(row["direction"]), AXIS, gradient, 1, ratio, index, index, False)
     assert status == Status.OK
@@ -75,7 +76,7 @@ def test_uniform_grating(row: dict[str, Any]) -> None:
     grating = Grating(
         frame=Frame.at((0, 0, 0)),
         aperture=WIDE,
-        pattern=GradientPattern.linear(*frequency),
+        pattern=LinearGrating(tuple(frequency)),
         index_back=media.constant(row["index_in"]),
         index_front=media.constant(row["index_out"]),
         branches=(Branch(1),),
@@ -162,7 +163,7 @@ def is_guided(index: float, field_deg: float) -> bool:
     coupler = Grating(
         frame=Frame.at((0, 0, 0)),
         aperture=WIDE,
-        pattern=GradientPattern.linear(0.5 * (index * steepest + 1.0) / wavelength, 0.0),
+        pattern=LinearGrating((0.5 * (index * steepest + 1.0) / wavelength, 0.0)),
         index_back=AIR,
         index_front=plate,
         branches=(Branch(1),),

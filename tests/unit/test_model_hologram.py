@@ -12,14 +12,16 @@ import pytest
 
 from hoe_addon.core.errors import SpecError
 from hoe_addon.core.orders import Branch
-from hoe_addon.core.recording import PlaneWave, PointSource
+from hoe_addon.core.waves import PlaneWave, PointSource
 from hoe_addon.model.convert import branches_from, efficiency_from, recording_from
 from hoe_addon.model.document import dump, hologram_from, load_hologram, to_document
 from hoe_addon.model.efficiency import ConstantSpec, KinoformSpec, ShareTable
-from hoe_addon.model.hologram import HologramSpec, PlaneSurface, SideMedia
+from hoe_addon.model.hologram import HologramSpec, SideMedia
 from hoe_addon.model.medium import SellmeierMedium, SellmeierTerms, medium_from
 from hoe_addon.model.reading import parse_json
-from hoe_addon.model.recording import PlaneWaveSpec, PointSourceSpec, RecordingSpec
+from hoe_addon.model.recording import RecordingSpec
+from hoe_addon.model.surface import PlaneSurface
+from hoe_addon.model.waves import PlaneWaveSpec, PointSourceSpec
 
 LENS = Path(__file__).parents[1] / "documents" / "lens.json"
 

@@ -10,13 +10,8 @@ from mpmath import mp, mpf
 
 from hoe_addon.core.arrays import unit
 from hoe_addon.core.ray_law import Status, diffract
-from hoe_addon.core.recording import (
-    PlaneWave,
-    PointSource,
-    Recording,
-    characteristic_gradient,
-    propagation_direction,
-)
+from hoe_addon.core.recording import Recording
+from hoe_addon.core.waves import PlaneWave, PointSource, Wave
 
 AXIS = np.array([0.0, 0.0, 1.0])
 COUNT = 500
@@ -27,6 +22,10 @@ RETURN = 1e-12
 """Two passes, with up to 1 / cos = 1e3 times the rounding in the normal part."""
 BACKWARD_ERROR = 32 * EPS
 """Error of (n' cos')^2: a dozen roundings of terms of up to (2 n)^2 = 13."""
+
+
+def propagation_direction(wave: Wave, points: np.ndarray) -> np.ndarray:
+    return wave.gradient(points) / wave.index
 
 
 def random_rays(rng: np.random.Generator, count: int = COUNT) -> np.ndarray:
@@ -183,7 +182,7 @@ def test_read_out_with_one_wave_gives_the_other(order: int, rng: np.random.Gener
     directions, status = diffract(
         propagation_direction(read, points),
         AXIS,
-        characteristic_gradient(recording, points),
+        recording.gradient(points),
         order,
         1.0,
         read.index,
@@ -198,7 +197,7 @@ def test_reflection_hologram_gives_its_object_wave(rng: np.random.Generator) -> 
     points = np.column_stack([rng.uniform(-0.02, 0.02, (COUNT, 2)), np.zeros(COUNT)])
     wave = PointSource((0.0, 0.01, 0.05), converging=False)  # travels back, toward -z
     recording = Recording(wave, PlaneWave((0.1, 0.0, 1.0)), 532e-9)
-    gradient = characteristic_gradient(recording, points)
+    gradient = recording.gradient(points)
     read = propagation_direction(recording.reference, points)
     directions, _ = diffract(read, AXIS, gradient, 1, 1.0, 1.0, 1.5, True)
     np.testing.assert_allclose(directions, propagation_direction(wave, points), atol=4 * EPS)

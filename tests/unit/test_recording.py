@@ -8,16 +8,15 @@ from mpmath import mp, mpf
 
 from hoe_addon.core.errors import SpecError
 from hoe_addon.core.ray_law import Status, diffract
-from hoe_addon.core.recording import (
-    PlaneWave,
-    PointSource,
-    Recording,
-    characteristic_gradient,
-    propagation_direction,
-)
+from hoe_addon.core.recording import Recording
+from hoe_addon.core.waves import PlaneWave, PointSource, Wave
 
 ROUNDING = 1e-15
 """A few roundings of components below 1."""
+
+
+def propagation_direction(wave: Wave, points: np.ndarray) -> np.ndarray:
+    return wave.gradient(points) / wave.index
 
 
 def exact_direction(source: tuple[float, float, float], point: np.ndarray) -> np.ndarray:
@@ -69,7 +68,7 @@ def test_gradient_is_the_difference_with_indices(
     points = rng.normal(size=shape)
     wave_o = PointSource((0.1, 0.0, -2.0), converging=True, index=1.5)
     wave_r = PlaneWave((0.6, 0.0, 0.8), index=1.7)
-    gradient = characteristic_gradient(Recording(wave_o, wave_r, 532e-9), points)
+    gradient = Recording(wave_o, wave_r, 532e-9).gradient(points)
     expected = 1.5 * propagation_direction(wave_o, points) - 1.7 * np.array([0.6, 0.0, 0.8])
     np.testing.assert_allclose(gradient, expected, rtol=0, atol=ROUNDING)
 
@@ -90,7 +89,7 @@ def test_gradient_is_that_of_the_optical_paths(rng: np.random.Generator) -> None
     numeric = np.stack(
         [(characteristic(points + s) - characteristic(points - s)) / (2 * step) for s in steps], -1
     )
-    np.testing.assert_allclose(characteristic_gradient(recording, points), numeric, atol=noise)
+    np.testing.assert_allclose(recording.gradient(points), numeric, atol=noise)
 
 
 def test_point_on_its_source_has_no_direction_and_the_status_says_so() -> None:
@@ -98,7 +97,7 @@ def test_point_on_its_source_has_no_direction_and_the_status_says_so() -> None:
     recording = Recording(source, PlaneWave((0.0, 0.0, 1.0)), 532e-9)
     points = np.array([[1.0, 2.0, 0.0], [0.0, 0.0, 0.0]])
     assert np.isnan(propagation_direction(source, points)[0]).all()
-    gradient = characteristic_gradient(recording, points)
+    gradient = recording.gradient(points)
     axis = (0.0, 0.0, 1.0)
     _, status = diffract(axis, axis, gradient, 1, 0.5, 1.0, 1.0, False)
     assert status.tolist() == [Status.UNDEFINED, Status.OK]

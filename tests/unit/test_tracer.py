@@ -7,11 +7,12 @@ import pytest
 
 from hoe_addon.core import media
 from hoe_addon.core.arrays import BoolArray, FloatArray, unit
+from hoe_addon.core.characteristic import LinearGrating
 from hoe_addon.core.errors import SpecError
 from hoe_addon.core.fresnel import reflectance_unpolarised
 from hoe_addon.core.orders import REFLECTED_ZERO, TRANSMITTED_ZERO, Branch
 from hoe_addon.core.ray_law import Status
-from hoe_addon.core.recording import PlaneWave, PointSource, Recording
+from hoe_addon.core.recording import Recording
 from hoe_addon.core.tracer import (
     Absorber,
     Aperture,
@@ -19,7 +20,6 @@ from hoe_addon.core.tracer import (
     Dielectric,
     EnergyBalance,
     Frame,
-    GradientPattern,
     Grating,
     IdealLens,
     Mirror,
@@ -32,6 +32,7 @@ from hoe_addon.core.tracer import (
     walk_sequence_backward,
     walk_tree,
 )
+from hoe_addon.core.waves import PlaneWave, PointSource
 
 AIR = media.by_name("air")
 GLASS = media.constant(1.5)
@@ -56,7 +57,7 @@ def equal_shares(share: float):
 
 def grating(frame: Frame, frequency: float, aperture: Aperture = WIDE, **changes) -> Grating:
     settings = {
-        "pattern": GradientPattern.linear(frequency, 0.0),
+        "pattern": LinearGrating((frequency, 0.0)),
         "index_back": AIR,
         "index_front": AIR,
         "branches": (Branch(1),),

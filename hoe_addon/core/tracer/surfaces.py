@@ -5,7 +5,7 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Self, override
+from typing import override
 
 import numpy as np
 
@@ -13,8 +13,8 @@ from ..arrays import BoolArray, FloatArray, IntArray
 from ..fresnel import reflectance_unpolarised
 from ..media import Medium
 from ..orders import Branch, order_weights
+from ..pattern import Pattern
 from ..ray_law import Status, diffract
-from ..recording import Recording, characteristic_gradient
 from .geometry import Aperture, Frame
 
 NORMAL = np.array([0.0, 0.0, 1.0])
@@ -68,31 +68,12 @@ class PlanarSurface(ABC):
         """Return the direction ``(R, 3)`` of one way out and its `Status` ``(R,)``."""
 
 
-@dataclass(frozen=True, eq=False)
-class GradientPattern:
-    """A grating given by its gradient instead of by two recording waves.
-
-    Attributes:
-        gradient: Local points ``(R, 3)``, metres -> ``lambda_0 Q``, broadcastable to ``(R, 3)``.
-        wavelength: The lambda_0 that scales the gradient, metres.
-    """
-
-    gradient: Callable[[FloatArray], FloatArray]
-    wavelength: float
-
-    @classmethod
-    def linear(cls, frequency_x: float, frequency_y: float) -> Self:
-        """Return a uniform grating with the grating vector Q in cycles per metre."""
-        vector = np.array([frequency_x, frequency_y, 0.0])
-        return cls(lambda _points: vector, 1.0)
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Grating(PlanarSurface):
     """A hologram or grating between two media.
 
     Attributes:
-        pattern: How it was recorded, in the frame of the surface.
+        pattern: What is recorded in it, in the frame of the surface.
         index_back: Medium on the side z < 0.
         index_front: Medium on the side z > 0.
         branches: The ways out that carry light.
@@ -100,7 +81,7 @@ class Grating(PlanarSurface):
         total_internal_reflection: See `order_weights`.
     """
 
-    pattern: Recording | GradientPattern
+    pattern: Pattern
     index_back: Medium
     index_front: Medium
     branches: tuple[Branch, ...]
@@ -120,7 +101,7 @@ class Grating(PlanarSurface):
             base,
             rays.directions,
             NORMAL,
-            self._gradient(rays.points),
+            self.pattern.gradient(rays.points),
             rays.wavelengths / self.pattern.wavelength,
             index_in,
             index_out,
@@ -134,19 +115,13 @@ class Grating(PlanarSurface):
         return diffract(
             rays.directions,
             NORMAL,
-            self._gradient(rays.points),
+            self.pattern.gradient(rays.points),
             branch.order,
             rays.wavelengths / self.pattern.wavelength,
             index_in,
             index_out,
             branch.reflected,
         )
-
-    def _gradient(self, points: FloatArray) -> FloatArray:
-        """Return the dimensionless gradient at local points, broadcastable to ``(R, 3)``."""
-        if isinstance(self.pattern, Recording):
-            return characteristic_gradient(self.pattern, points)
-        return self.pattern.gradient(points)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is recorded in an element: by two waves, or a characteristic function outright."""
+
+from typing import Protocol, cast
+
+from msgspec import Struct
+
+from . import field_kinds
+from .characteristic import CHARACTERISTICS, CharacteristicSpec
+from .field_error import FieldError
+from .recording import RecordingSpec
+from .surface import SurfaceSpec
+
+type PatternSpec = RecordingSpec | CharacteristicSpec
+"""Both have ``wavelength_nm``."""
+
+
+class HasPattern(Protocol):
+    """A struct with the two fields, of which exactly one is given."""
+
+    @property
+    def recording(self) -> RecordingSpec | None:
+        """The recording scheme."""
+        ...
+
+    @property
+    def characteristic(self) -> CharacteristicSpec | None:
+        """The characteristic function."""
+        ...
+
+
+def pattern_of(owner: HasPattern) -> PatternSpec:
+    """Give what is recorded in an element.
+
+    Args:
+        owner: A hologram or a patch.
+
+    Returns:
+        Its recording scheme or its characteristic function.
+    """
+    found = owner.recording if owner.characteristic is None else owner.characteristic
+    assert found is not None, "a checked element has one of the two"
+    return found
+
+
+def check(owner: Struct, surface: SurfaceSpec) -> None:
+    """Check that an element has exactly one of ``recording`` and ``characteristic``.
+
+    Args:
+        owner: A hologram or a patch.
+        surface: Its surface.
+
+    Raises:
+        FieldError: If it has none or both, or a source lies on the surface.
+    """
+    recording = getattr(owner, "recording", None)
+    characteristic = getattr(owner, "characteristic", None)
+    if recording is None and characteristic is None:
+        raise FieldError("recording", "must be given, or characteristic instead", None)
+    if recording is not None and characteristic is not None:
+        raise FieldError(
+            "characteristic", "must not be given beside recording", type(characteristic).__name__
+        )
+    if characteristic is not None:
+        field_kinds.instance(owner, "characteristic", *CHARACTERISTICS)
+        return
+    field_kinds.instance(owner, "recording", RecordingSpec)
+    try:
+        cast("RecordingSpec", recording).check_clear_of(surface)
+    except FieldError as error:
+        raise error.inside("recording") from error
