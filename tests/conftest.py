@@ -2,12 +2,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fixtures for all tests."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import pytest
 
 SEED = 20260101
+
+
+@pytest.fixture(scope="session", autouse=True)
+def own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Maps that tests make are kept away from those of the user."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("HOE_CACHE_DIR", str(tmp_path_factory.mktemp("maps")))
+        yield
 
 
 @pytest.fixture

@@ -97,7 +97,7 @@ def survey(
     Raises:
         RenderError: Blender gave no usable picture.
     """
-    positions = list(pupil_positions(device.spec))
+    positions = list(pupil_positions(device.guide_spec))
     render = device.scene.render
     kept = tuple(device.eye.location), render.use_persistent_data
     try:
@@ -115,6 +115,7 @@ def survey(
 @contextlib.contextmanager
 def white_field(device: DeviceScene) -> Iterator[None]:
     """Show white on the display, switch the room off, and look at exactly the field."""
+    assert device.panel is not None, "a light guide has a display"
     white = picture("white", built_in("white", 16, 16))
     scene, camera = device.scene, device.camera
     texture = next(
@@ -123,9 +124,9 @@ def white_field(device: DeviceScene) -> Iterator[None]:
         if node.bl_idname == "ShaderNodeTexImage"
     )
     columns, rows = (
-        max(_LEAST_CELLS, round(angle / _CELL_DEG)) for angle in field_degrees(device.spec)
+        max(_LEAST_CELLS, round(angle / _CELL_DEG)) for angle in field_degrees(device.guide_spec)
     )
-    half_x, half_y = field_tangents(device.spec)
+    half_x, half_y = field_tangents(device.guide_spec)
     tallness = (half_y / rows) / (half_x / columns)
     groups = (
         (texture, {"image": white, "extension": "EXTEND"}),
@@ -186,7 +187,7 @@ def measure_field(device: DeviceScene, samples: int) -> FieldLuminance:
     Returns:
         Luminance and colour.
     """
-    cycles, unit = device.scene.cycles, device.spec.render.luminance_per_unit_cd_m2
+    cycles, unit = device.scene.cycles, device.guide_spec.render.luminance_per_unit_cd_m2
     kept = cycles.samples, cycles.seed
     parts: list[NDArray[np.float32]] = []
     try:

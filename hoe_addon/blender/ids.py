@@ -56,6 +56,10 @@ class WaveKind(Choice):
 
     PLANE = "plane", 0, "Plane Wave", "The same direction everywhere"
     POINT = "point", 1, "Point Source", "Away from a point, or toward it"
+    WINDOW = "window", 2, "Point behind a Window", "A point source seen through a flat plate"
+    ASTIGMATIC = "astigmatic", 3, "Line Foci", "A wave with two line foci at right angles"
+    EXTENDED = "extended", 4, "Extended Source", "One point of the source is drawn for each ray"
+    SYSTEM = "system", 5, "Behind Optics", "A source seen through lenses and mirrors"
 
 
 class Beam(Choice):
@@ -63,6 +67,44 @@ class Beam(Choice):
 
     DIVERGING = "diverging", 0, "Diverging", "The wave runs away from its point"
     CONVERGING = "converging", 1, "Converging", "The wave runs toward its point"
+
+
+class PatternKind(Choice):
+    """How it is said what is recorded."""
+
+    RECORDING = "recording", 0, "Recording", "Two waves and a wavelength"
+    CHARACTERISTIC = "characteristic", 1, "Characteristic Function", "A function V(x, y)"
+
+
+class CharacteristicKind(Choice):
+    """Kinds of characteristic function."""
+
+    LINEAR = "linear", 0, "Grating", "Straight, evenly spaced lines"
+    RADIAL = "radial", 1, "Rings", "Circular, evenly spaced lines"
+    EVEN_RADIAL = "even_radial", 2, "Even Radial", "Even powers of the radius (Binary 2)"
+    POLYNOMIAL = "polynomial", 3, "Polynomial", "Powers of x and y (Binary 1)"
+    ZERNIKE = "zernike", 4, "Zernike", "Noll or fringe polynomials"
+    SPLINE = "spline", 5, "Spline", "A grid of cubic B-splines"
+    FORMULA = "formula", 6, "Formula", "An expression of x, y, r and phi"
+    SAMPLED = "sampled", 7, "File", "An image or an array of values"
+
+
+class Shape(Choice):
+    """Shapes of a hologram's surface."""
+
+    PLANE = "plane", 0, "Plane", "A flat element"
+    SPHERE = "sphere", 1, "Sphere", "A part of a sphere"
+    CYLINDER = "cylinder", 2, "Cylinder", "A part of a cylinder"
+    CONIC = "conic", 3, "Conic", "A paraboloid, ellipsoid or hyperboloid"
+    ASPHERE = "asphere", 4, "Asphere", "A conic with even powers of the radius"
+    MESH = "mesh", 5, "Mesh", "The mesh of the object, or of a file"
+
+
+class Outline(Choice):
+    """Outlines of a hologram, seen along its normal."""
+
+    RECTANGLE = "rectangle", 0, "Rectangle", "A rectangle of this width and height"
+    ELLIPSE = "ellipse", 1, "Ellipse", "The ellipse in that rectangle, such as a round lens"
 
 
 class EfficiencyModel(Choice):

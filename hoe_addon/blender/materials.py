@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Materials of optical elements."""
 
+from collections.abc import Mapping
+
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.colour import white_balance
+from ..core.gradient_map import Progress
 from ..core.spectrum import Spectrum
 from ..model.hologram import HologramSpec
 from ..model.medium import MediumRef
@@ -15,6 +18,8 @@ from ..shading.medium import medium_sockets
 from ..shading.source import specialised
 from ..shading.wavelength import display_shader, filter_shader
 from . import nodes
+from .following import Followed, drive, waves_of
+from .maps import prepare_map, update_map
 from .props import sync
 from .spectral import SpectralScene, use_wavelength
 
@@ -24,6 +29,10 @@ def hologram_material(
     spectral: SpectralScene,
     frame: Frame | None = None,
     units_per_mm: float = 1.0,
+    followed: Mapping[str, Followed] | None = None,
+    *,
+    pack: bool = True,
+    progress: Progress | None = None,
 ) -> bpy.types.Material:
     """The material of a hologram; it can be edited by its properties where they are registered.
 
@@ -32,18 +41,28 @@ def hologram_material(
         spectral: The sampled spectrum of the scene.
         frame: Where the recording's frame lies in the object; by default it is the object's own.
         units_per_mm: Scene units in one mm.
+        followed: Waves of its recording that follow an object, by role (``object``,
+            ``reference``); they take the place of those of ``spec``.
+        pack: Keep a map that the pattern may need inside the .blend.
+        progress: Told the share that is done, where such a map has to be made.
 
     Returns:
         A new material.
 
     Raises:
         SpecError: A number is outside what the properties can hold.
+        HoeError: A map that the pattern needs cannot be made; nothing is left behind.
     """
-    values = hologram_sockets(spec, frame or Frame(), units_per_mm)
-    material = nodes.script_material(spec.name, hologram_shader(spec), values)
+    sources = followed or {}
+    waves = waves_of(sources)
+    values = hologram_sockets(spec, frame or Frame(), units_per_mm, waves)
+    prepare_map(spec, waves, progress)
+    material = nodes.script_material(spec.name, hologram_shader(spec, waves), values)
     use_wavelength(material, spectral.group)
+    drive(nodes.script_node(material), sources)
+    update_map(material, spec, frame, units_per_mm, waves, pack=pack)
     if sync.has_properties():
-        sync.write_spec(material, spec, frame, units_per_mm)
+        sync.write_spec(material, spec, frame, units_per_mm, sources)
     return material
 
 
@@ -118,7 +137,7 @@ def display_material(
     texture.interpolation = "Linear"
     texture.extension = "CLIP"
     texture.location = (-640.0, 0.0)
-    display = next(node for node in tree.nodes if node.bl_idname == "ShaderNodeScript")
+    display = nodes.script_node(material)
     tree.links.new(texture.outputs["Color"], nodes.input_socket(display, "image"))
     return material
 

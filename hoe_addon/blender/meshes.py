@@ -7,6 +7,15 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
+from ..core.shapes import MeshShape
+
+NORMAL_ATTRIBUTE = "hoe_normal"
+"""Attribute of the exact normals at the corners, which the hologram's shader interpolates. Take it
+away after editing such a mesh by hand: the shader then uses Blender's normals."""
+
+_FREE_NORMALS = "custom_normal"
+"""Name by which Blender knows normals that are stored as plain vectors."""
+
 
 def rectangle(name: str, width: float, height: float) -> bpy.types.Mesh:
     """A rectangle around the origin in the plane z = 0."""
@@ -41,6 +50,35 @@ def from_polygons(
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata([tuple(corner) for corner in corners], [], [tuple(p) for p in polygons])
     mesh.validate()
+    return mesh
+
+
+def smooth(name: str, shape: MeshShape, units: float) -> bpy.types.Mesh:
+    """A mesh with smooth normals.
+
+    Args:
+        name: Name of the datablock.
+        shape: Its triangles and normals.
+        units: Scene units in one metre.
+
+    Returns:
+        The mesh: its normals are there twice, as Blender's own, and as the attribute
+        `NORMAL_ATTRIBUTE`, since Cycles rounds Blender's to some 3e-5 rad.
+    """
+    mesh = bpy.data.meshes.new(name)
+    count = len(shape.faces)
+    mesh.vertices.add(len(shape.vertices))
+    mesh.vertices.foreach_set("co", (shape.vertices * units).astype(np.float32).ravel())
+    mesh.loops.add(3 * count)
+    mesh.loops.foreach_set("vertex_index", shape.faces.astype(np.int32).ravel())
+    mesh.polygons.add(count)
+    mesh.polygons.foreach_set("loop_start", np.arange(0, 3 * count, 3, dtype=np.int32))
+    mesh.update(calc_edges=True)
+    mesh.validate()
+    mesh.shade_smooth()
+    for attribute_name in (NORMAL_ATTRIBUTE, _FREE_NORMALS):
+        attribute = mesh.attributes.new(attribute_name, "FLOAT_VECTOR", "POINT")
+        attribute.data.foreach_set("vector", shape.normals.astype(np.float32).ravel())
     return mesh
 
 

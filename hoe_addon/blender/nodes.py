@@ -14,6 +14,9 @@ from .quiet import captured_output
 
 type SocketValue = float | int | Sequence[float]
 
+_ATTRIBUTE = "attribute_"
+_FEEDER = "For the hologram"
+
 _SOCKET_TYPES = {
     ParameterKind.FLOAT: "NodeSocketFloat",
     ParameterKind.INT: "NodeSocketInt",
@@ -60,6 +63,7 @@ def set_script(node: bpy.types.Node, source: ShaderSource) -> None:
     # Cycles compares this hash, not the bytecode, to know that the shader has changed.
     node.bytecode_hash = hashlib.md5(bytecode.encode(), usedforsecurity=False).hexdigest()
     _match_sockets(node, parameters(bytecode))
+    _feed_attributes(node)
 
 
 def set_values(node: bpy.types.Node, values: Mapping[str, SocketValue]) -> None:
@@ -115,6 +119,11 @@ def tree_of(material: bpy.types.Material) -> bpy.types.NodeTree:
     return material.node_tree
 
 
+def script_node(material: bpy.types.Material) -> bpy.types.Node:
+    """The one Script node of a material made here."""
+    return next(node for node in tree_of(material).nodes if node.bl_idname == "ShaderNodeScript")
+
+
 def input_socket(node: bpy.types.Node, identifier: str) -> bpy.types.NodeSocket:
     """The input with this identifier."""
     return next(socket for socket in node.inputs if socket.identifier == identifier)
@@ -145,6 +154,28 @@ def _match_sockets(node: bpy.types.Node, wanted: Sequence[Parameter]) -> None:
         for parameter in named.values():
             if parameter.name not in present:
                 _add_socket(sockets, parameter)
+
+
+def _feed_attributes(node: bpy.types.Node) -> None:
+    """Link each socket called ``attribute_NAME`` to the mesh's attribute of that name.
+
+    Cycles hands attributes to a shader only where an Attribute node asks for them.
+    """
+    tree = node.id_data
+    wanted = {
+        socket.identifier.removeprefix(_ATTRIBUTE): socket
+        for socket in node.inputs
+        if socket.identifier.startswith(_ATTRIBUTE)
+    }
+    for feeder in [item for item in tree.nodes if item.label == _FEEDER]:
+        if not feeder.outputs["Vector"].is_linked:
+            tree.nodes.remove(feeder)
+    for name, socket in wanted.items():
+        if not socket.is_linked:
+            feeder = tree.nodes.new("ShaderNodeAttribute")
+            feeder.label, feeder.attribute_name = _FEEDER, name
+            feeder.location = (-560.0, -200.0)
+            tree.links.new(feeder.outputs["Vector"], socket)
 
 
 def _add_socket(

@@ -2,7 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The modules that register something with Blender, each after those that it depends on."""
 
-from .props import efficiency, hologram, material, medium, recording, sync
+from .props import efficiency, hologram, material, medium, recording, sync, targets
 from .registration import Part
 
-PARTS: tuple[Part, ...] = (medium, recording, efficiency, hologram, material, sync)
+PARTS: tuple[Part, ...] = (
+    medium,
+    recording,
+    efficiency,
+    hologram,
+    material,
+    sync,
+    targets,
+)

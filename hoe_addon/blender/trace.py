@@ -16,18 +16,32 @@ from numpy.typing import NDArray
 
 from ..core.orders import Branch
 from ..core.ray_law import Status
+from ..core.shapes.tessellate import departure_from
+from ..core.units import m_to_mm, mm_to_m
+from ..model.element import element_mesh, element_shape, first_hit
 from ..model.hologram import HologramSpec
+from ..model.mesh_surface import MeshSurface
 from ..model.rays import RayTable, TraceResult
+from ..model.surface import PlaneSurface
 from ..shading.hologram import (
     Frame,
     hologram_sockets,
     one_order_shader,
     unit_efficiency_shader,
 )
-from ..shading.probe import MISSED, direction_world_shader, position_shader, ray_camera_shader
+from ..shading.probe import (
+    MISSED,
+    direction_world_shader,
+    first_hit_only,
+    position_shader,
+    ray_camera_shader,
+)
 from ..shading.source import ShaderSource
+from ..shading.surface import hit_part
 from ..shading.wavelength import PLAIN_TIME, wavelength_shader
 from . import meshes, nodes
+from .element import element_datablock
+from .maps import update_map
 from .osl import compiled, require_osl
 from .render import COMBINED, Progress, render_layers
 from .render_settings import carry_time_on_rows, set_up
@@ -36,6 +50,7 @@ from .temporary import temporary_scene
 _ROWS = 1023
 """Rays in one render. Odd, so that no row has the time 0.5, which means preview."""
 _NEAREST_MM, _FARTHEST_MM, _FARTHEST_HIT_MM = 1e-2, 100.0, 1e5
+_LEAST_COSINE = 0.02
 _LEAST_ROWS = 5
 """Odd too; Blender makes no picture lower than 4 rows."""
 
@@ -46,13 +61,15 @@ def trace_cycles(
     """Send rays through a hologram in Cycles, each into the one branch that it names.
 
     Args:
-        spec: The hologram, at z = 0, its normal along +z; 1 scene unit is 1 mm.
+        spec: The hologram, in its own frame; 1 scene unit is 1 mm.
         rays: Rays in its frame.
         progress: Told after every render.
 
     Returns:
         What Cycles made of them, in float32 precision. The efficiency is that of the backward
-        walk, which equals that of the ray as light by reciprocity.
+        walk, which equals that of the ray as light by reciprocity. Points of extended sources
+        are drawn by the shader's own numbers: even as in numpy, but not the same ray by ray.
+        An order that is not there because nothing is recorded counts as evanescent.
 
     Raises:
         MissingOslError: This Blender has no OSL.
@@ -68,30 +85,48 @@ def trace_cycles(
     parts = list(_parts(rays))
     with _probe_scene(spec) as probe:
         for done, (branch, chosen) in enumerate(parts, start=1):
-            probe.load(_started_near(rays.part(chosen)))
+            probe.load(_started_near(spec, rays.part(chosen)))
             _read_back(probe, branch, chosen, result)
             if progress is not None:
                 progress(done / len(parts))
     return result
 
 
-def _started_near(rays: RayTable) -> RayTable:
+def _started_near(spec: HologramSpec, rays: RayTable) -> RayTable:
     """The same rays, started where float32 serves them best; a hopeless one goes away instead.
 
-    A ray that meets the plane starts 10 um to 100 mm before it, on its own line: one that starts
-    on the plane hits there, and one from afar keeps its digits. What never meets the plane, or
-    beyond any element, could be infinite in float32 and spoil its neighbours.
+    A ray that meets the element's shape starts 10 um to 100 mm before it, on its own line: one
+    that starts on it hits there, and one from afar keeps its digits. Where facets stand for a
+    curved surface, it starts before them, too. Cycles is asked about a ray that meets the shape
+    beside the element; one that never meets it, or beyond any element, could be infinite in
+    float32 and spoil its neighbours.
     """
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        distance = -rays.origin_mm[:, 2] / rays.direction[:, 2]
+    distance, _hit = first_hit(spec, rays.origin_mm, rays.direction)
+    beside = element_shape(spec).intersect(mm_to_m(rays.origin_mm), rays.direction)
+    distance = np.where(np.isnan(distance), m_to_mm(beside), distance)
+    with np.errstate(invalid="ignore", over="ignore"):
         hit = rays.origin_mm + distance[:, None] * rays.direction
-        meets = (distance >= 0.0) & (np.abs(hit).max(axis=1) < _FARTHEST_HIT_MM)
-        start = hit - np.clip(distance, _NEAREST_MM, _FARTHEST_MM)[:, None] * rays.direction
+        meets = np.isfinite(distance) & (np.abs(hit).max(axis=1) < _FARTHEST_HIT_MM)
+        nearest = _nearest_mm(spec, hit, rays.direction)
+        start = hit - np.clip(distance, nearest, _FARTHEST_MM)[:, None] * rays.direction
     return replace(
         rays,
         origin_mm=np.where(meets[:, None], start, (0.0, 0.0, 1.0)),
         direction=np.where(meets[:, None], rays.direction, (0.0, 0.0, 1.0)),
     )
+
+
+def _nearest_mm(
+    spec: HologramSpec, hit: NDArray[np.float64], direction: NDArray[np.float64]
+) -> NDArray[np.float64] | float:
+    """How far before the surface a ray must start to be before its facets."""
+    if isinstance(spec.surface, PlaneSurface | MeshSurface):
+        return _NEAREST_MM
+    shape = element_shape(spec)
+    normal = shape.normal(mm_to_m(hit))
+    sagitta = m_to_mm(departure_from(shape, element_mesh(spec).mesh))
+    cosine = np.maximum(np.abs(np.sum(normal * direction, axis=1)), _LEAST_COSINE)
+    return np.maximum(_NEAREST_MM, 2.0 * sagitta / cosine)
 
 
 def _parts(rays: RayTable) -> Iterator[tuple[Branch, NDArray[np.int64]]]:
@@ -111,7 +146,7 @@ def _parts(rays: RayTable) -> Iterator[tuple[Branch, NDArray[np.int64]]]:
 def _read_back(
     probe: "_Probe", branch: Branch, chosen: NDArray[np.int64], result: TraceResult
 ) -> None:
-    answer = probe.render(unit_efficiency_shader(probe.spec, branch))
+    answer = probe.render(first_hit_only(unit_efficiency_shader(probe.spec, branch)))
     missed = answer[:, 0] == MISSED
     length = np.linalg.norm(answer, axis=1)
     gone = ~missed & (length == 0.0)
@@ -119,7 +154,8 @@ def _read_back(
     result.status[chosen] = np.select((missed, gone), (int(Status.MISS), int(Status.EVANESCENT)), 0)
     result.direction[chosen[met]] = answer[met] / length[met, None]
 
-    weight = np.linalg.norm(probe.render(one_order_shader(probe.spec, branch)), axis=1)
+    weighted = probe.render(first_hit_only(one_order_shader(probe.spec, branch)))
+    weight = np.linalg.norm(weighted, axis=1)
     result.efficiency[chosen[~missed]] = weight[~missed]
 
     place = probe.render_positions()
@@ -134,9 +170,10 @@ class _Probe:
         self.scene = scene
         self._rows = 0
         self._wavelengths = wavelength_shader((500.0, 500.0))
-        width, height = spec.surface.size_mm
-        self.element = meshes.add(scene.collection, meshes.rectangle("hoe probe", width, height))
-        self._positions = nodes.script_material("hoe probe", position_shader(), {})
+        facets, _error = element_datablock(spec)
+        self.element = meshes.add(scene.collection, facets)
+        mover = hit_part(spec.surface)
+        self._positions = nodes.script_material("hoe probe", position_shader(mover), mover.sockets)
         self._camera = bpy.data.cameras.new("hoe probe")
         self._camera.type = "CUSTOM"
         self._camera.custom_mode = "INTERNAL"
@@ -168,6 +205,7 @@ class _Probe:
         """Directions times weights, one row a ray; zero where no order goes on."""
         material = nodes.script_material("hoe probe", source, self._sockets(source))
         _link_wavelength(material, self._wavelengths)
+        update_map(material, self.spec)
         try:
             return self._rendered(material)
         finally:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from .. import resources
 from ..core.photometry import Photometry, measure
 from ..files import replacing, write_text
+from ..model.device import LightGuideSpec
 from ..model.document import to_document
 from ..model.field import field_mask
 from . import exr
@@ -62,22 +63,26 @@ def render_view(device: DeviceScene, progress: Progress | None = None) -> View:
 def view_metrics(device: DeviceScene, view: View) -> dict[str, Any]:
     """What a report says of a view; every number carries its unit in its name."""
     unit = device.spec.render.luminance_per_unit_cd_m2
-    height, width, _ = view.picture.shape
-    inside = field_mask(device.spec, width, height)
-    return {
+    metrics: dict[str, Any] = {
         "device": device.spec.name,
         "settings": to_document(device.spec.render),
         "eye": to_document(device.spec.eye),
         "seconds": round(view.seconds, 3),
         "samples": device.scene.cycles.samples,
         "picture": _as_dict(measure(view.picture, unit)),
-        "display_field": {
-            "display_light": _as_dict(measure(view.display[inside], unit)),
-            "all_light": _as_dict(measure(view.picture[inside], unit)),
-        },
         "blender": bpy.app.version_string,
         "hoe_addon": resources.version(),
     }
+    if isinstance(device.spec, LightGuideSpec):
+        height, width, _ = view.picture.shape
+        inside = field_mask(device.spec, width, height)
+        metrics["display_field"] = {
+            "display_light": _as_dict(measure(view.display[inside], unit)),
+            "all_light": _as_dict(measure(view.picture[inside], unit)),
+        }
+    else:
+        metrics["emitters"] = _as_dict(measure(view.display, unit))
+    return metrics
 
 
 def save_view(device: DeviceScene, view: View, folder: Path, *, clean: bool) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from ..core.errors import CancelledError, HoeError
 from .interrupt import EXIT_INTERRUPTED
 from .parser import Parser
 
-COMMANDS = ("presets", "render", "eyebox", "trace", "efficiency", "bench", "demo")
+COMMANDS = ("presets", "render", "eyebox", "trace", "efficiency", "map", "bench", "demo")
 """Modules of the commands, in the order of ``--help``."""
 
 EXIT_OK = 0

@@ -7,7 +7,7 @@ import time
 from typing import Any
 
 from .eyebox import EYEBOX_FILES, summary, view_files, write_survey
-from .picture_options import VIEW_FILES, device_of, open_device
+from .picture_options import VIEW_FILES, light_guide_of, open_device
 from .progress import progress_bar
 
 _DESCRIPTION = """\
@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
     from ..files import writable_folder
 
     started = time.perf_counter()
-    spec = device_of(args, _VIEW)
+    spec = light_guide_of(args, _VIEW)
     folder = writable_folder(args.out, (*VIEW_FILES, *EYEBOX_FILES))
     views = writable_folder(folder / "views", view_files(spec))
     device = open_device(args, spec)

@@ -6,14 +6,14 @@ import argparse
 import json
 from typing import TYPE_CHECKING, Any
 
-from .picture_options import add_picture_options, device_of, open_device, size
+from .picture_options import add_picture_options, light_guide_of, open_device, size
 from .progress import progress_bar
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from ..blender.device import DeviceScene
-    from ..model.device import DeviceSpec
+    from ..model.device import LightGuideSpec
 
 _DESCRIPTION = """\
 Look through a device from a grid of pupil positions. Writes eyebox.png (a labelled contact sheet),
@@ -72,7 +72,7 @@ def run(args: argparse.Namespace) -> int:
         changes.append(f"eyebox.grid={json.dumps(args.grid)}")
     if args.pitch_mm is not None:
         changes.append(f"eyebox.pitch_mm={json.dumps(args.pitch_mm)}")
-    spec = device_of(args, changes)
+    spec = light_guide_of(args, changes)
     folder = writable_folder(args.out, EYEBOX_FILES)
     views = writable_folder(folder / "views", view_files(spec))
     with progress_bar("eyebox") as progress:
@@ -133,7 +133,7 @@ def write_survey(
     return report
 
 
-def view_files(spec: "DeviceSpec") -> list[str]:
+def view_files(spec: "LightGuideSpec") -> list[str]:
     """Names of the files that a survey writes into the folder of views."""
     from ..model.eyebox import pupil_positions
 
@@ -156,7 +156,7 @@ def _report(
     from ..model.document import to_document
     from ..model.field import field_degrees
 
-    spec = device.spec
+    spec = device.guide_spec
     means = [position["mean_cd_m2"] for position in positions]
     return {
         "device": spec.name,

@@ -11,7 +11,7 @@ from ..core.errors import HoeError
 
 if TYPE_CHECKING:
     from ..blender.device import DeviceScene
-    from ..model.device import DeviceSpec
+    from ..model.device import DeviceSpec, LightGuideSpec
 
 
 VIEW_FILES = ("view.exr", "view.png", "view.blend", "metrics.json")
@@ -99,15 +99,37 @@ def device_of(args: argparse.Namespace, more: Sequence[str] = ()) -> "DeviceSpec
     Raises:
         SpecError: The document, or a change, is not valid.
     """
-    from ..model.document import find_device, image_path, load_device
+    from ..model.document import find_device, load_device, picture_paths
     from ..model.reading import naming
     from ..shading.pictures import check_picture
 
     spec = load_device(args.device, [*assignments(args), *more])
     with naming(args.device):
-        path = image_path(spec.display, find_device(args.device).parent)
-        if path is not None:
-            check_picture(path)
+        for field, path in picture_paths(spec, find_device(args.device).parent).items():
+            check_picture(path, field)
+    return spec
+
+
+def light_guide_of(args: argparse.Namespace, more: Sequence[str] = ()) -> "LightGuideSpec":
+    """Read the light guide that the options name, with their changes.
+
+    Args:
+        args: Arguments with the options of ``add_picture_options``.
+        more: Further changes, in the form of ``--set``.
+
+    Returns:
+        The valid light guide.
+
+    Raises:
+        SpecError: The document, or a change, is not valid, or it is a device of another kind.
+    """
+    from ..core.errors import SpecError
+    from ..model.device import LightGuideSpec
+
+    for changes in ((), more):
+        spec = device_of(args, changes)
+        if not isinstance(spec, LightGuideSpec):
+            raise SpecError(f"{args.device}: kind: must be light_guide for an eyebox, got scene")
     return spec
 
 

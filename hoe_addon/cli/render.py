@@ -48,11 +48,19 @@ def run(args: argparse.Namespace) -> int:
     with progress_bar("render") as progress:
         view = render_view(device, progress)
     metrics = save_view(device, view, folder, clean=args.denoise)
-    field = metrics["display_field"]["display_light"]
     print(f"{folder}: view.exr, view.png, view.blend, metrics.json")
-    print(
-        f"picture: mean {metrics['picture']['mean_cd_m2']:.1f} cd/m2; light of the display over "
-        f"its field: mean {field['mean_cd_m2']:.1f}, peak {field['peak_cd_m2']:.1f} cd/m2"
-    )
+    print(f"picture: mean {metrics['picture']['mean_cd_m2']:.1f} cd/m2; {_emitted(metrics)}")
     print(f"{metrics['samples']} samples per pixel in {metrics['seconds']:.1f} s")
     return 0
+
+
+def _emitted(metrics: dict[str, Any]) -> str:
+    """What the metrics say of the light of displays and lamps."""
+    if "emitters" in metrics:
+        light, words = metrics["emitters"], "light of displays and lamps"
+    else:
+        light, words = (
+            metrics["display_field"]["display_light"],
+            "light of the display over its field",
+        )
+    return f"{words}: mean {light['mean_cd_m2']:.1f}, peak {light['peak_cd_m2']:.1f} cd/m2"

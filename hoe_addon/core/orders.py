@@ -65,6 +65,10 @@ def order_weights(
     order 0 is evanescent its share goes to the reflected order 0, as on a bare surface beyond
     the critical angle. A ray and its reverse have the same share, so the rule is reciprocal.
 
+    Where the gradient is NaN nothing is recorded: there is no grating, whatever the model of the
+    efficiency says. All light is in the transmitted order 0 (or, with the fold, reflected), and
+    every other order is `Status.UNDEFINED`.
+
     Args:
         branches: The K ways out, each named once.
         efficiencies: Base efficiencies, broadcastable to ``(..., K)``.
@@ -77,13 +81,17 @@ def order_weights(
         total_internal_reflection: Fold the evanescent transmitted order 0 into the reflected.
 
     Returns:
-        The fan. When the fold needs a reflected order 0 that is not listed, it is added as
-        the last branch.
+        The fan. What is needed and not listed is added behind the others: the transmitted order
+        0 where some ray meets nothing recorded, then the reflected order 0 for the fold.
     """
     listed = tuple(branches)
-    fold = total_internal_reflection and TRANSMITTED_ZERO in listed
-    added = fold and REFLECTED_ZERO not in listed
-    ways = (*listed, REFLECTED_ZERO) if added else listed
+    recorded = np.isfinite(as_float(gradient)).all(axis=-1)
+    ways = listed
+    if TRANSMITTED_ZERO not in ways and not recorded.all():
+        ways = (*ways, TRANSMITTED_ZERO)
+    fold = total_internal_reflection and TRANSMITTED_ZERO in ways
+    if fold and REFLECTED_ZERO not in ways:
+        ways = (*ways, REFLECTED_ZERO)
     directions, status = diffract(
         as_float(direction)[..., None, :],
         as_float(normal)[..., None, :],
@@ -96,9 +104,15 @@ def order_weights(
     )
     base = np.zeros(status.shape, dtype=np.float64)
     base[..., : len(listed)] = efficiencies
+    straight: BoolArray = np.asarray([way == TRANSMITTED_ZERO for way in ways], dtype=np.bool_)
+    base = np.where(recorded[..., None], base, straight)
     weights = np.where(status == Status.OK, base, 0.0)
     if fold:
         zero = ways.index(TRANSMITTED_ZERO)
         trapped: BoolArray = status[..., zero] == Status.EVANESCENT
         weights[..., ways.index(REFLECTED_ZERO)] += np.where(trapped, base[..., zero], 0.0)
+    # The reflected order 0 has a direction with or without a grating, but there is no such light.
+    absent = ~recorded[..., None] & ~straight & (weights == 0.0)
+    status = np.where(absent, Status.UNDEFINED, status)
+    directions = np.where(absent[..., None], np.nan, directions)
     return OrderFan(ways, directions, weights, status)

@@ -7,36 +7,24 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core import characteristic, kinoform, waves
+from ..core import kinoform
 from ..core.arrays import FloatArray, as_float
 from ..core.errors import SpecError
 from ..core.orders import Branch
 from ..core.pattern import Pattern
 from ..core.recording import Recording
-from ..core.units import mm_to_m, nm_to_m
+from ..core.shapes import Shape
+from ..core.units import nm_to_m
+from .characteristic.convert import characteristic_from
+from .convert_waves import wave_from
 from .efficiency import EfficiencySpec, KinoformSpec
 from .medium import medium_from
 from .pattern import PatternSpec
 from .recording import RecordingSpec
-from .waves import PlaneWaveSpec, WaveSpec
+from .surface import SurfaceSpec
 
 type EfficiencyFunction = Callable[[Sequence[Branch], ArrayLike], FloatArray]
 """Base efficiencies of K branches at wavelengths in metres, shape ``(...)`` -> ``(..., K)``."""
-
-
-def wave_from(wave: WaveSpec) -> waves.Wave:
-    """Make a recording wave of the core.
-
-    Args:
-        wave: The wave of a document.
-
-    Returns:
-        The same wave, lengths in metres.
-    """
-    if isinstance(wave, PlaneWaveSpec):
-        return waves.PlaneWave(direction=wave.direction, index=wave.index)
-    x, y, z = (float(mm_to_m(value)) for value in wave.position_mm)
-    return waves.PointSource((x, y, z), converging=wave.beam == "converging", index=wave.index)
 
 
 def recording_from(spec: RecordingSpec) -> Recording:
@@ -49,8 +37,8 @@ def recording_from(spec: RecordingSpec) -> Recording:
         The same recording in SI units.
     """
     return Recording(
-        object=wave_from(spec.object),
-        reference=wave_from(spec.reference),
+        object=wave_from(spec.object, spec.wavelength_nm),
+        reference=wave_from(spec.reference, spec.wavelength_nm),
         wavelength=float(nm_to_m(spec.wavelength_nm)),
     )
 
@@ -66,10 +54,19 @@ def pattern_from(spec: PatternSpec) -> Pattern:
     """
     if isinstance(spec, RecordingSpec):
         return recording_from(spec)
-    along = np.radians(spec.azimuth_deg)
-    lines = float(spec.lines_per_mm / mm_to_m(1.0))
-    frequency = (lines * float(np.cos(along)), lines * float(np.sin(along)))
-    return characteristic.LinearGrating(frequency, float(nm_to_m(spec.wavelength_nm)))
+    return characteristic_from(spec)
+
+
+def shape_from(spec: SurfaceSpec) -> Shape:
+    """Make the surface of an element, for the core.
+
+    Args:
+        spec: The surface of a document.
+
+    Returns:
+        The shape in metres; a mesh as it is given, see ``element.element_shape``.
+    """
+    return spec.core_shape()
 
 
 def branches_from(efficiency: EfficiencySpec, orders: Iterable[int]) -> tuple[Branch, ...]:

@@ -13,6 +13,7 @@ from msgspec import Struct
 from . import field_kinds, fields, medium, pattern
 from .characteristic import CharacteristicSpec
 from .device_parts import (
+    BUILT_IN_IMAGES,
     DisplaySpec,
     EyeboxSpec,
     EyeSpec,
@@ -26,6 +27,7 @@ from .field_error import FieldError
 from .hologram import HologramSpec, Orders, SideMedia
 from .medium import MediumRef
 from .recording import RecordingSpec
+from .scene import SceneSpec
 from .surface import PlaneSurface
 
 _THICKEST_MM = 1000.0
@@ -225,6 +227,13 @@ class LightGuideSpec(
             # Only the guide's media are new here; the patch has checked the rest itself.
             raise error.moved(_GUIDE_FIELDS[error.field]) from error
 
+    @property
+    def picture_files(self) -> tuple[tuple[str, str], ...]:
+        """Pictures that are files: the field that names each, and the name."""
+        if self.display.image in BUILT_IN_IMAGES:
+            return ()
+        return (("display.image", self.display.image),)
+
     def patch(self, name: str) -> PatchSpec:
         """Find a hologram by its name.
 
@@ -257,5 +266,5 @@ _PARTS = {
     "render": RenderSpec,
 }
 
-type DeviceSpec = LightGuideSpec
-"""Any device; more kinds join here, told apart by ``kind``."""
+type DeviceSpec = LightGuideSpec | SceneSpec
+"""Any device, told apart by ``kind``."""

@@ -12,8 +12,12 @@ from ..core.units import nm_to_m
 from . import field_kinds, fields
 from .field_error import FieldError
 
-BUILT_IN_IMAGES = ("chart", "white", "dots")
-"""Pictures that need no file: a test chart, a plain white field, a grid of dots."""
+BUILT_IN_IMAGES = ("chart", "white", "dots", "bars", "reticle", "speed")
+"""Pictures that need no file: a test chart, a plain white field, a grid of dots, black and white
+bars with letters, a red aiming mark, a green speedometer."""
+
+ROOMS = ("living_room", "none", "desk", "range", "road", "wall")
+"""Scenes behind a device: a living room, darkness, a desk top, open land, a road, a wall."""
 
 WHITES = ("D65", "E", "A")
 """White points by the name of their illuminant."""
@@ -183,19 +187,19 @@ class EyeboxSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
 
 class RoomSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """The scene behind the guide.
+    """The scene behind and around a device.
 
     Attributes:
         kind: Which scene; ``none`` is darkness.
         luminance_cd_m2: Luminance of a white surface in it.
     """
 
-    kind: Literal["living_room", "none"] = "living_room"
+    kind: Literal["living_room", "none", "desk", "range", "road", "wall"] = "living_room"
     luminance_cd_m2: float
 
     def __post_init__(self) -> None:
         """Check kind and luminance."""
-        field_kinds.choice(self, "kind", ("living_room", "none"))
+        field_kinds.choice(self, "kind", ROOMS)
         fields.number(self, "luminance_cd_m2", at_least=0.0)
 
 

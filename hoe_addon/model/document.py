@@ -19,6 +19,7 @@ from .hologram import HologramSpec
 from .override import override
 from .plain import plain
 from .reading import naming, parse_json, read_text, to_spec
+from .scene import SceneSpec
 
 SCHEMA = 1
 """Version of the format that this program writes."""
@@ -29,7 +30,7 @@ type Migration = Callable[[Document], Document]
 _MIGRATIONS: Mapping[int, Migration] = {}
 """For each older version, the step to the next one; every format change adds one."""
 
-_DEVICES: Mapping[str, type[DeviceSpec]] = {"light_guide": LightGuideSpec}
+_DEVICES: Mapping[str, type[DeviceSpec]] = {"light_guide": LightGuideSpec, "scene": SceneSpec}
 _LINE = 80
 _INDENT = "  "
 
@@ -103,7 +104,30 @@ def load_hologram(path: str | Path) -> HologramSpec:
         SpecError: ``FILE: FIELD: what is wrong, and the value``.
     """
     with naming(path):
-        return hologram_from(parse_json(read_text(path)))
+        return hologram_from(with_placed_files(parse_json(read_text(path)), Path(path).parent))
+
+
+def with_placed_files(document: object, folder: Path) -> object:
+    """Make the files that a document names by a relative path those beside the document.
+
+    Args:
+        document: Plain data; a text at the name ``file``, at any depth, is a path.
+        folder: Folder of the document.
+
+    Returns:
+        The same data with absolute paths.
+    """
+    if isinstance(document, list):
+        return [with_placed_files(item, folder) for item in cast("list[object]", document)]
+    if not isinstance(document, dict):
+        return document
+    placed: Document = {}
+    for name, item in cast("Document", document).items():
+        if name == "file" and isinstance(item, str) and item.strip():
+            placed[name] = str(folder.absolute() / item)
+        else:
+            placed[name] = with_placed_files(item, folder)
+    return placed
 
 
 def find_device(name: str | Path) -> Path:
@@ -143,11 +167,13 @@ def load_device(name: str | Path, assignments: Iterable[str] = ()) -> DeviceSpec
     """
     path = find_device(name)
     with naming(name):
-        spec = device_from(parse_json(read_text(path)))
+        document = with_placed_files(parse_json(read_text(path)), path.parent)
+        spec = device_from(document)
         changes = list(assignments)
         if changes:
-            spec = device_from(override(to_document(spec), changes))
-        image_path(spec.display, path.parent)
+            changed = override(to_document(spec), changes)
+            spec = device_from(with_placed_files(changed, path.parent))
+        picture_paths(spec, path.parent)
     return spec
 
 
@@ -166,13 +192,33 @@ def image_path(display: DisplaySpec, folder: Path) -> Path | None:
     """
     if display.image in BUILT_IN_IMAGES:
         return None
-    path = folder / display.image
+    return _picture_path("display.image", display.image, folder)
+
+
+def picture_paths(spec: DeviceSpec, folder: Path) -> dict[str, Path]:
+    """Find all pictures of a device that are files.
+
+    Args:
+        spec: The device.
+        folder: Folder of the document, which a relative path starts from.
+
+    Returns:
+        Path by the field that names the file.
+
+    Raises:
+        SpecError: If a file does not exist.
+    """
+    return {field: _picture_path(field, image, folder) for field, image in spec.picture_files}
+
+
+def _picture_path(field: str, image: str, folder: Path) -> Path:
+    path = folder / image
     exists = False
     with contextlib.suppress(OSError):  # such as a name that is too long
         exists = path.is_file()
     if not exists:
         rule = f"must be {', '.join(BUILT_IN_IMAGES)} or a file that exists"
-        raise FieldError("display.image", rule, display.image)
+        raise FieldError(field, rule, image)
     return path
 
 

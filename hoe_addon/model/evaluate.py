@@ -7,17 +7,20 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.arrays import BoolArray, FloatArray, as_float
+from ..core.arrays import FloatArray, as_float, dot
 from ..core.errors import SpecError
 from ..core.orders import TRANSMITTED_ZERO, Branch, OrderFan, order_weights
 from ..core.ray_law import Status
-from ..core.units import mm_to_m, nm_to_m
+from ..core.shapes import MeshShape
+from ..core.units import m_to_mm, mm_to_m, nm_to_m
 from .convert import efficiency_from, pattern_from
+from .element import element_shape, first_hit
 from .hologram import HologramSpec
 from .medium import medium_from
 from .rays import RayTable, TraceResult
 
-_NORMAL = (0.0, 0.0, 1.0)
+DRAW_SEED = 20260601
+"""Seed of the numbers by which `trace` draws points of extended sources, in the order of rays."""
 
 
 def fan(
@@ -26,19 +29,24 @@ def fan(
     direction: ArrayLike,
     wavelength_nm: ArrayLike,
     branches: Sequence[Branch],
+    draws: ArrayLike | None = None,
 ) -> OrderFan:
     """Diffract rays that hit a hologram, with the power of each branch.
 
     Args:
         spec: The hologram.
         points_mm: Points on its surface, mm, shape ``(..., 3)``.
-        direction: Unit directions of travel, shape ``(..., 3)``; z > 0 comes from the back.
+        direction: Unit directions of travel, shape ``(..., 3)``; along the normal there, such as
+            z > 0 on a plane, light comes from the back.
         wavelength_nm: Vacuum wavelengths, nm, broadcastable to ``(...)``.
         branches: Ways out to look at; any order, listed in the document or not.
+        draws: Uniform numbers in [0, 1) that choose the points of extended sources, shape
+            ``(..., pattern.draws)``; None for a middle point.
 
     Returns:
-        Directions, weights and status, shape ``(..., K)``; with total internal reflection the
-        transmitted and reflected order 0 may follow those asked for.
+        Directions, weights and status, shape ``(..., K)``; with total internal reflection, or
+        where nothing is recorded, the transmitted and reflected order 0 may follow those asked
+        for.
 
     Raises:
         SpecError: If a medium has no index at one of the wavelengths.
@@ -52,13 +60,15 @@ def fan(
     index_back, index_front = (
         np.broadcast_to(_index(spec, side, wavelength), shape) for side in ("back", "front")
     )
-    from_back = incident[..., 2] > 0.0
+    points = mm_to_m(as_float(points_mm))
+    normal = element_shape(spec).normal(points)
+    from_back = np.broadcast_to(dot(incident, normal) > 0.0, shape)
     return order_weights(
         ways,
         efficiency_from(spec.efficiency)(ways, wavelength),
         incident,
-        as_float(_NORMAL),
-        pattern_from(spec.pattern).gradient(mm_to_m(as_float(points_mm))),
+        normal,
+        pattern_from(spec.pattern).gradient(points, draws),
         wavelength_nm / spec.pattern.wavelength_nm,
         np.where(from_back, index_back, index_front),
         np.where(from_back, index_front, index_back),
@@ -77,9 +87,10 @@ def trace(spec: HologramSpec, rays: RayTable) -> TraceResult:
     """Send rays through a hologram, each into the one branch that it names.
 
     Args:
-        spec: The hologram, at z = 0, its normal along +z.
-        rays: Rays in its frame. One that starts beyond the element, runs along its plane, or
-            passes outside its rectangle is a miss; one that starts on the plane hits there.
+        spec: The hologram, in its own frame.
+        rays: Rays in its frame; with extended sources each meets the wave of a point of its own,
+            drawn with the seed `DRAW_SEED`. One that starts beyond the element, runs along a
+            plane, or passes outside its outline is a miss; one that starts on a plane hits there.
 
     Returns:
         Hit points, directions, status and efficiency.
@@ -87,8 +98,10 @@ def trace(spec: HologramSpec, rays: RayTable) -> TraceResult:
     Raises:
         SpecError: If a medium has no index at one of the wavelengths.
     """
-    hit_mm, met = _meet(spec, rays)
+    distance, hit_mm = first_hit(spec, rays.origin_mm, rays.direction)
+    met = np.isfinite(distance)
     count = len(rays)
+    draws = np.random.default_rng(DRAW_SEED).random((count, pattern_from(spec.pattern).draws))
     direction = np.full((count, 3), np.nan)
     status = np.full(count, int(Status.MISS), dtype=np.int64)
     efficiency = np.full(count, np.nan)
@@ -97,24 +110,38 @@ def trace(spec: HologramSpec, rays: RayTable) -> TraceResult:
     ):
         chosen = np.flatnonzero(met & (rays.order == order) & (rays.reflected == reflected))
         ways = (Branch(order, reflected=reflected),)
-        out = fan(spec, hit_mm[chosen], rays.direction[chosen], rays.wavelength_nm[chosen], ways)
+        out = fan(
+            spec,
+            hit_mm[chosen],
+            rays.direction[chosen],
+            rays.wavelength_nm[chosen],
+            ways,
+            draws[chosen],
+        )
         direction[chosen] = out.directions[:, 0]
         status[chosen] = out.status[:, 0]
         efficiency[chosen] = out.weights[:, 0]
     return TraceResult(hit_mm, direction, status, efficiency)
 
 
-def _meet(spec: HologramSpec, rays: RayTable) -> tuple[FloatArray, BoolArray]:
-    """Return where each ray meets the element (NaN for a miss), and which rays do."""
-    z, dz = rays.origin_mm[:, 2], rays.direction[:, 2]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        distance = -z / dz
-        hit = rays.origin_mm + distance[:, None] * rays.direction
-    half_width, half_height = spec.surface.size_mm[0] / 2.0, spec.surface.size_mm[1] / 2.0
-    met = (dz != 0.0) & (distance >= 0.0)
-    met &= (np.abs(hit[:, 0]) <= half_width) & (np.abs(hit[:, 1]) <= half_height)
-    hit[:, 2] = 0.0
-    return np.where(met[:, None], hit, np.nan), met
+def centre_mm(spec: HologramSpec) -> FloatArray:
+    """Find the middle of an element.
+
+    Args:
+        spec: The hologram.
+
+    Returns:
+        The vertex; for a mesh the place at x = y = 0 or, where there is none, the corner nearest
+        to that line. In mm, shape ``(3,)``.
+    """
+    shape = element_shape(spec)
+    if not isinstance(shape, MeshShape):
+        return np.zeros(3)
+    height = float(shape.sag(0.0, 0.0))
+    if np.isfinite(height):
+        return m_to_mm(np.array((0.0, 0.0, height)))
+    corners = shape.vertices
+    return m_to_mm(corners[np.argmin(np.hypot(corners[:, 0], corners[:, 1]))])
 
 
 def incident_direction(theta_deg: ArrayLike, phi_deg: ArrayLike, *, from_front: bool) -> FloatArray:
@@ -155,6 +182,6 @@ def efficiencies(
         SpecError: If a medium has no index at one of the wavelengths.
     """
     ways = [Branch(order, reflected=side) for order in orders for side in (False, True)]
-    out = fan(spec, (0.0, 0.0, 0.0), direction, wavelength_nm, ways)
+    out = fan(spec, centre_mm(spec), direction, wavelength_nm, ways)
     shares = out.weights[..., : len(ways)]
     return shares.reshape(*shares.shape[:-1], len(orders), 2)

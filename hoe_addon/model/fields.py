@@ -123,6 +123,22 @@ def wavelength_value(field: str, value: object) -> float:
     return number_nm
 
 
+def value(field: str, value: object) -> float:
+    """Check one finite number that is not a field of a struct.
+
+    Args:
+        field: Name for the message.
+        value: The number.
+
+    Returns:
+        The number.
+
+    Raises:
+        FieldError: If it is not a number, not finite, or too large.
+    """
+    return _real(field, value)
+
+
 def share(field: str, value: object) -> float:
     """Check one share of the light.
 

@@ -65,9 +65,15 @@ def known_names(kind: type[msgspec.Struct], document: object, parts: Sequence[Pa
     return [*tag, *(field.encode_name for field in chosen.fields)]
 
 
+def _members(info: inspect.Type | None) -> list[inspect.Type | None]:
+    """The types that a value may have; a named union stands inside another as a whole."""
+    if not isinstance(info, inspect.UnionType):
+        return [info]
+    return [member for part in info.types for member in _members(part)]
+
+
 def _structs(info: inspect.Type | None) -> list[inspect.StructType]:
-    members = info.types if isinstance(info, inspect.UnionType) else (info,)
-    return [member for member in members if isinstance(member, inspect.StructType)]
+    return [member for member in _members(info) if isinstance(member, inspect.StructType)]
 
 
 def _struct_for(info: inspect.Type | None, value: object) -> inspect.StructType | None:
@@ -81,8 +87,7 @@ def _struct_for(info: inspect.Type | None, value: object) -> inspect.StructType 
 def _inside(info: inspect.Type | None, part: Part) -> inspect.Type | None:
     if isinstance(info, inspect.StructType):
         return next((field.type for field in info.fields if field.encode_name == part), None)
-    members = info.types if isinstance(info, inspect.UnionType) else (info,)
-    for member in members:
+    for member in _members(info):
         if isinstance(member, inspect.VarTupleType | inspect.ListType):
             return member.item_type
         if isinstance(member, inspect.TupleType) and isinstance(part, int):

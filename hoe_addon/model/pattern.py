@@ -7,7 +7,7 @@ from typing import Protocol, cast
 from msgspec import Struct
 
 from . import field_kinds
-from .characteristic import CHARACTERISTICS, CharacteristicSpec
+from .characteristic import CHARACTERISTICS, CharacteristicSpec, FormulaSpec
 from .field_error import FieldError
 from .recording import RecordingSpec
 from .surface import SurfaceSpec
@@ -64,9 +64,20 @@ def check(owner: Struct, surface: SurfaceSpec) -> None:
         )
     if characteristic is not None:
         field_kinds.instance(owner, "characteristic", *CHARACTERISTICS)
+        _check_formula(characteristic, surface)
         return
     field_kinds.instance(owner, "recording", RecordingSpec)
     try:
         cast("RecordingSpec", recording).check_clear_of(surface)
     except FieldError as error:
         raise error.inside("recording") from error
+
+
+def _check_formula(characteristic: object, surface: SurfaceSpec) -> None:
+    """Check that a formula has a value all over the surface."""
+    if not isinstance(characteristic, FormulaSpec):
+        return
+    try:
+        characteristic.check_on(surface)
+    except FieldError as error:
+        raise error.inside("characteristic") from error

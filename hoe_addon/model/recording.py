@@ -5,9 +5,11 @@
 from msgspec import Struct
 
 from . import field_kinds, fields
+from .clearance import is_behind, touched_mm
 from .field_error import FieldError
+from .optical_system import SystemWaveSpec
 from .surface import SurfaceSpec
-from .waves import WAVES, PointSourceSpec, WaveSpec
+from .waves import WAVES, ExtendedSourceSpec, WaveSpec, WindowSourceSpec
 
 
 class RecordingSpec(Struct, frozen=True, forbid_unknown_fields=True):
@@ -28,17 +30,44 @@ class RecordingSpec(Struct, frozen=True, forbid_unknown_fields=True):
         fields.wavelength(self, "wavelength_nm")
         field_kinds.instance(self, "object", *WAVES)
         field_kinds.instance(self, "reference", *WAVES)
+        for name, wave in self._behind_optics():
+            try:
+                wave.core_system(self.wavelength_nm)
+            except FieldError as error:
+                raise error.inside(name) from error
 
     def check_clear_of(self, surface: SurfaceSpec) -> None:
-        """Check that no source point lies on the element, where a wave has no direction.
+        """Check that no source touches the element, where a wave has no direction.
+
+        Of an extended source its edges are looked at. A source behind optics or a window
+        has to throw light on the element.
 
         Args:
             surface: The element's surface.
 
         Raises:
-            FieldError: If a source point lies on it, edges included.
+            FieldError: If a source lies on it, edges included, or passes through it, or no light
+                of one behind optics or a window reaches it.
         """
         for name, wave in (("object", self.object), ("reference", self.reference)):
-            if isinstance(wave, PointSourceSpec) and surface.holds(wave.position_mm):
-                field = f"{name}.position_mm"
-                raise FieldError(field, "must not lie on the surface", wave.position_mm)
+            for field, position_mm in wave.source_points():
+                if surface.holds(position_mm):
+                    rule = "must not lie on the surface"
+                    raise FieldError(f"{name}.{field}", rule, position_mm)
+            if isinstance(wave, ExtendedSourceSpec):
+                place_mm = touched_mm(surface, wave.edges_mm())
+                if place_mm is not None:
+                    rule = "must not touch the surface with its source"
+                    raise FieldError(f"{name}.shape", rule, place_mm)
+            if isinstance(wave, WindowSourceSpec) and not is_behind(surface, wave.window):
+                rule = "must lie before the surface, but no part of the surface is behind it"
+                raise FieldError(f"{name}.window", rule, wave.window.position_mm)
+        for name, wave in self._behind_optics():
+            try:
+                wave.check_reaches(surface, self.wavelength_nm)
+            except FieldError as error:
+                raise error.inside(name) from error
+
+    def _behind_optics(self) -> list[tuple[str, SystemWaveSpec]]:
+        both = (("object", self.object), ("reference", self.reference))
+        return [(name, wave) for name, wave in both if isinstance(wave, SystemWaveSpec)]

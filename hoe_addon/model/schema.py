@@ -8,7 +8,7 @@ by the reader alone. What a schema refuses, the reader refuses too.
 
 import json
 from pathlib import Path
-from typing import Any
+from typing import Any, Union
 
 import msgspec
 
@@ -16,6 +16,8 @@ from ..core.media import CATALOGUE
 from . import fields
 from .device import LightGuideSpec
 from .hologram import HologramSpec
+from .scene import SceneSpec
+from .surface import MOST_COEFFICIENTS
 
 SCHEMA_DIR = Path(__file__).with_name("schema")
 
@@ -32,7 +34,21 @@ _POSITIVE_FIELDS = (
     "distance_mm",
     "pupil_diameter_mm",
     "luminance_per_unit_cd_m2",
+    "length_mm",
+    "normalization_mm",
+    "semi_diameter_mm",
 )
+_NOT_NEGATIVE_FIELDS = (("FlatWindowSpec", "thickness_mm"),)
+"""Struct and field, where the name alone would say positive."""
+_SURFACE_RULES: dict[tuple[str, str], dict[str, Any]] = {
+    **{
+        (f"{kind}Surface", "radius_mm"): {"not": {"const": 0}}
+        for kind in ("Sphere", "Conic", "Cylinder", "Asphere")
+    },
+    ("SphereOptic", "radius_mm"): {"not": {"const": 0}},
+    ("ConicOptic", "radius_mm"): {"not": {"const": 0}},
+    ("AsphereSurface", "coefficients"): {"maxItems": MOST_COEFFICIENTS},
+}
 _SHARES = {
     "propertyNames": {"pattern": "^(0|-?[1-9][0-9]?|-?100)$"},
     "additionalProperties": {"type": "number", "minimum": 0, "maximum": 1},
@@ -45,7 +61,7 @@ def hologram_schema() -> dict[str, Any]:
     Returns:
         The schema, as plain data.
     """
-    return _schema(HologramSpec, "hologram-1")
+    return _schema("hologram-1", HologramSpec)
 
 
 def device_schema() -> dict[str, Any]:
@@ -54,7 +70,7 @@ def device_schema() -> dict[str, Any]:
     Returns:
         The schema, as plain data.
     """
-    return _schema(LightGuideSpec, "device-1")
+    return _schema("device-1", LightGuideSpec, SceneSpec)
 
 
 def schema_text(schema: dict[str, Any]) -> str:
@@ -75,29 +91,35 @@ def write_shipped() -> None:
         (SCHEMA_DIR / f"{name}.schema.json").write_text(schema_text(schema), encoding="utf-8")
 
 
-def _schema(kind: type[msgspec.Struct], name: str) -> dict[str, Any]:
-    made = msgspec.json.schema(kind)
+def _schema(name: str, *kinds: type[msgspec.Struct]) -> dict[str, Any]:
+    made = msgspec.json.schema(Union[kinds])  # noqa: UP007  (made of a list)
     definitions: dict[str, Any] = made["$defs"]
-    root = definitions[kind.__name__]
-    root["required"] = ["schema", *(field for field in root["required"] if field != "schema")]
-    for definition in definitions.values():
+    for kind in kinds:
+        root = definitions[kind.__name__]
+        root["required"] = ["schema", *(field for field in root["required"] if field != "schema")]
+    for struct, definition in definitions.items():
         definition["description"] = definition.get("description", "").split("\n")[0]
         for field, rule in definition["properties"].items():
-            _add_rules(field, rule)
+            if (struct, field) in _NOT_NEGATIVE_FIELDS:
+                rule["minimum"] = 0
+            elif (struct, field) in _SURFACE_RULES:
+                rule |= _SURFACE_RULES[struct, field]
+            else:
+                _add_rules(field, rule)
     return {"$schema": _DRAFT, "$id": f"{name}.schema.json", **made}
 
 
 def _add_rules(field: str, rule: dict[str, Any]) -> None:
     """Add what the type alone does not say."""
     if field in _MEDIA_FIELDS:
-        for option in rule["anyOf"]:
+        for option in rule.get("anyOf", ()):
             if option.get("type") == "number":
                 option["minimum"] = 1
             elif option.get("type") == "string":
                 option["enum"] = list(CATALOGUE)
     elif field in ("wavelength_nm", "design_wavelength_nm", "preview_wavelength_nm", "centre_nm"):
         rule |= _WAVELENGTH
-    elif field == "index":
+    elif field in ("index", "source_index") and rule.get("type") == "number":
         rule["minimum"] = 1
     elif field == "levels":
         rule |= {"minimum": 0, "not": {"const": 1}}

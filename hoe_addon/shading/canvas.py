@@ -7,6 +7,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from . import stroke_font
+
 type Colour = tuple[float, float, float]
 type Place = tuple[float, ...]
 
@@ -96,6 +98,24 @@ class Canvas:
         if top < bottom and left < right:
             self._touched.append((top, bottom, left, right))
         return np.s_[top:bottom, left:right]
+
+
+def text(canvas: Canvas, words: str, centre: Place, height: float, colour: Colour) -> None:
+    """Write a line in the stroke font around a point, in one colour.
+
+    Args:
+        canvas: What is written on; all that was drawn before is painted too.
+        words: Letters that the font has.
+        centre: Middle of the line.
+        height: Height of a capital letter.
+        colour: Linear colour.
+    """
+    step = height / stroke_font.GRID_HEIGHT
+    x = centre[0] - step * stroke_font.width(words) / 2.0
+    y = centre[1] - height / 2.0
+    for (x0, y0), (x1, y1) in stroke_font.strokes(words):
+        canvas.stroke((x + step * x0, y + step * y0), (x + step * x1, y + step * y1), 0.48 * step)
+    canvas.paint(colour)
 
 
 def _share(centres: _Floats, step: float, low: float, high: float) -> _Floats:

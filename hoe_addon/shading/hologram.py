@@ -5,13 +5,17 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from ..core.arrays import FloatArray
 from ..core.orders import REFLECTED_ZERO, TRANSMITTED_ZERO, Branch
 from ..model.convert import branches_from
 from ..model.efficiency import EfficiencySpec, KinoformSpec
 from ..model.hologram import HologramSpec
+from .map import map_part
 from .medium import medium_sockets
 from .part import SocketValues, parameter
-from .pattern import pattern_part
+from .pattern import Followed, pattern_part
 from .source import ShaderSource, specialised
 from .surface import surface_part
 
@@ -30,19 +34,27 @@ class Frame:
     x: tuple[float, float, float] = (1.0, 0.0, 0.0)
     y: tuple[float, float, float] = (0.0, 1.0, 0.0)
 
+    def matrix(self) -> FloatArray:
+        """The frame as a matrix from its own coordinates to object space, shape ``(4, 4)``."""
+        made = np.eye(4)
+        made[:3, 0], made[:3, 1], made[:3, 3] = self.x, self.y, self.origin
+        made[:3, 2] = np.cross(self.x, self.y)
+        return made
 
-def hologram_shader(spec: HologramSpec) -> ShaderSource:
+
+def hologram_shader(spec: HologramSpec, followed: Followed | None = None) -> ShaderSource:
     """Specialise the hologram shader. Equal kinds and orders give equal texts.
 
     Args:
         spec: The hologram.
+        followed: Waves of its recording that follow an object, in the object's frame.
 
     Returns:
         The flat text.
     """
     branches = branches_from(spec.efficiency, spec.orders)
     folds = spec.efficiency.total_internal_reflection and TRANSMITTED_ZERO in branches
-    return _shader(spec, branches, folds=folds)
+    return _shader(spec, branches, folds=folds, unrecorded=_unrecorded(spec), followed=followed)
 
 
 def one_order_shader(spec: HologramSpec, branch: Branch) -> ShaderSource:
@@ -56,7 +68,7 @@ def one_order_shader(spec: HologramSpec, branch: Branch) -> ShaderSource:
         The flat text.
     """
     folds = spec.efficiency.total_internal_reflection and branch == REFLECTED_ZERO
-    return _shader(spec, (branch,), folds=folds)
+    return _shader(spec, (branch,), folds=folds, unrecorded=_unrecorded(spec, branch))
 
 
 def unit_efficiency_shader(spec: HologramSpec, branch: Branch) -> ShaderSource:
@@ -66,26 +78,33 @@ def unit_efficiency_shader(spec: HologramSpec, branch: Branch) -> ShaderSource:
         "HOE_PREPARE_EFFICIENCY": "",
         "HOE_EACH_ORDER(X)": _each_order((branch,), {branch: "1.0"}),
     }
-    return _assembled(spec, definitions)
+    return _assembled(spec, definitions, _unrecorded(spec, branch))
 
 
-def hologram_sockets(spec: HologramSpec, frame: Frame, units_per_mm: float = 1.0) -> SocketValues:
+def hologram_sockets(
+    spec: HologramSpec,
+    frame: Frame,
+    units_per_mm: float = 1.0,
+    followed: Followed | None = None,
+) -> SocketValues:
     """The numbers of the document as socket values.
 
     Args:
         spec: The hologram.
         frame: Where its recording's frame lies in the object.
         units_per_mm: Scene units in one mm.
+        followed: Waves of its recording that follow an object, in the object's frame.
 
     Returns:
-        Value by socket identifier; the wavelength comes from another node.
+        Value by socket identifier; the wavelength comes from another node, and where a followed
+        object is from drivers.
     """
     values: SocketValues = {
         "frame_origin": frame.origin,
         "frame_x": frame.x,
         "frame_y": frame.y,
     }
-    values |= pattern_part(spec.pattern, units_per_mm).sockets
+    values |= pattern_part(spec.pattern, units_per_mm, followed).sockets
     values |= surface_part(spec.surface, units_per_mm).sockets
     values |= medium_sockets("back", spec.media.back)
     values |= medium_sockets("front", spec.media.front)
@@ -93,7 +112,14 @@ def hologram_sockets(spec: HologramSpec, frame: Frame, units_per_mm: float = 1.0
     return values
 
 
-def _shader(spec: HologramSpec, branches: Sequence[Branch], *, folds: bool) -> ShaderSource:
+def _shader(
+    spec: HologramSpec,
+    branches: Sequence[Branch],
+    *,
+    folds: bool,
+    unrecorded: Mapping[str, str],
+    followed: Followed | None = None,
+) -> ShaderSource:
     efficiency = spec.efficiency
     needed = (*branches, TRANSMITTED_ZERO) if folds else tuple(branches)
     if isinstance(efficiency, KinoformSpec):
@@ -115,19 +141,28 @@ def _shader(spec: HologramSpec, branches: Sequence[Branch], *, folds: bool) -> S
     if folds:
         definitions["HOE_TOTAL_INTERNAL_REFLECTION"] = "1"
         definitions["HOE_ZERO_ORDER_TRANSMITTED"] = shares[TRANSMITTED_ZERO]
-    return _assembled(spec, definitions)
+    return _assembled(spec, definitions, unrecorded, followed)
 
 
-def _assembled(spec: HologramSpec, efficiency: Mapping[str, str]) -> ShaderSource:
+def _assembled(
+    spec: HologramSpec,
+    efficiency: Mapping[str, str],
+    unrecorded: Mapping[str, str],
+    followed: Followed | None = None,
+) -> ShaderSource:
     """The text from its parts; the numbers in them are sockets, so their scale does not matter."""
-    pattern, surface = pattern_part(spec.pattern, 1.0), surface_part(spec.surface, 1.0)
+    pattern = pattern_part(spec.pattern, 1.0, followed)
+    surface = surface_part(spec.surface, 1.0)
+    with_map = map_part(pattern.map)
     definitions = {
-        "HOE_PATTERN_PARAMETERS": pattern.parameters,
-        "HOE_FIND_GRADIENT": pattern.code,
+        "HOE_PATTERN_PARAMETERS": f"{pattern.parameters} {with_map.parameters}".strip(),
+        "HOE_FIND_GRADIENT": f"{pattern.code} {with_map.code}".strip(),
         "HOE_SURFACE_PARAMETERS": surface.parameters,
         "HOE_FIND_NORMAL": surface.code,
         **efficiency,
     }
+    if "recorded = 0" in definitions["HOE_FIND_GRADIENT"]:
+        definitions |= unrecorded
     return specialised("hoe_hologram", definitions, pattern.functions + surface.functions)
 
 
@@ -152,6 +187,18 @@ _KINOFORM_PREPARE = (
     "design_wavelength_nm, wavelength_nm); "
     "float sine_alpha = hoe_sin_pi(alpha);"
 )
+
+
+def _unrecorded(spec: HologramSpec, only: Branch | None = None) -> dict[str, str]:
+    """What goes on where nothing is recorded: all in order 0, or of that what one branch gets."""
+    found = {"HOE_EACH_UNRECORDED(X)": ""}
+    if only in (None, TRANSMITTED_ZERO):
+        found["HOE_EACH_UNRECORDED(X)"] = _each_order(
+            (TRANSMITTED_ZERO,), {TRANSMITTED_ZERO: "1.0"}
+        )
+    if spec.efficiency.total_internal_reflection and only in (None, REFLECTED_ZERO):
+        found["HOE_UNRECORDED_REFLECTED"] = "1"
+    return found
 
 
 def _each_order(branches: Sequence[Branch], shares: Mapping[Branch, str]) -> str:

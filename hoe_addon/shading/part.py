@@ -5,6 +5,8 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from ..model.map_source import MapSource
+
 type SocketValues = dict[str, float | int | tuple[float, float, float]]
 
 
@@ -17,6 +19,7 @@ class ShaderPart:
         parameters: Declarations of shader parameters, each with its trailing comma.
         code: Statements that run once per hit.
         sockets: Value by socket identifier of this part's parameters.
+        map: What has to be baked, as terms of grad V that no code gives, if any.
     """
 
     functions: str = ""
@@ -25,6 +28,7 @@ class ShaderPart:
     sockets: SocketValues = field(
         default_factory=dict[str, "float | int | tuple[float, float, float]"]
     )
+    map: MapSource = field(default_factory=MapSource)
 
 
 def parameter(kind: str, name: str, default: str, label: str, words: str) -> str:
@@ -50,7 +54,7 @@ def joined(parts: Iterable[ShaderPart]) -> ShaderPart:
         parts: The parts.
 
     Returns:
-        Their texts one after the other, and all their sockets.
+        Their texts one after the other, and all their sockets and terms of maps.
     """
     listed = list(parts)
     sockets: SocketValues = {}
@@ -61,4 +65,5 @@ def joined(parts: Iterable[ShaderPart]) -> ShaderPart:
         parameters=" ".join(part.parameters for part in listed if part.parameters),
         code=" ".join(part.code for part in listed if part.code),
         sockets=sockets,
+        map=MapSource(tuple(term for part in listed for term in part.map.terms)),
     )

@@ -6,21 +6,29 @@ The code may read ``position`` (the hit in the frame of the recording, in scene 
 ``gradient`` (which begins as zero) and, where nothing is recorded, ``recorded`` to 0.
 """
 
-import math
+from collections.abc import Mapping
 
-from ..model.characteristic import LinearSpec
 from ..model.pattern import PatternSpec
 from ..model.recording import RecordingSpec
-from .part import ShaderPart, joined, parameter
+from ..model.waves import WaveSpec
+from .characteristic import characteristic_part
+from .following import following
+from .part import ShaderPart, joined
 from .waves import wave_part
 
+type Followed = Mapping[str, WaveSpec]
+"""Waves that follow an object, by role (``object``, ``reference``), in the object's frame."""
 
-def pattern_part(pattern: PatternSpec, units_per_mm: float) -> ShaderPart:
+
+def pattern_part(
+    pattern: PatternSpec, units_per_mm: float, followed: Followed | None = None
+) -> ShaderPart:
     """The shader's part for what is recorded.
 
     Args:
         pattern: The recording or the characteristic function.
         units_per_mm: Scene units in one mm.
+        followed: Waves of the recording that follow an object.
 
     Returns:
         Its part; its sockets hold the wavelength that V is stated for, too.
@@ -30,21 +38,16 @@ def pattern_part(pattern: PatternSpec, units_per_mm: float) -> ShaderPart:
         return joined(
             (
                 stated,
-                wave_part("object", "+", pattern.object, units_per_mm),
-                wave_part("reference", "-", pattern.reference, units_per_mm),
+                _wave("object", "+", pattern.object, units_per_mm, followed or {}),
+                _wave("reference", "-", pattern.reference, units_per_mm, followed or {}),
             )
         )
-    return joined((stated, _linear(pattern)))
+    return joined((stated, characteristic_part(pattern, units_per_mm)))
 
 
-def _linear(pattern: LinearSpec) -> ShaderPart:
-    # lambda_0 Q has no dimension: lines per mm times nm, times 1e-6 mm per nm.
-    size = pattern.lines_per_mm * pattern.wavelength_nm * 1e-6
-    angle = math.radians(pattern.azimuth_deg)
-    return ShaderPart(
-        parameters=parameter(
-            "vector", "grating", "vector(0.0)", "Grating", "Recording wavelength times Q"
-        ),
-        code="gradient = grating;",
-        sockets={"grating": (size * math.cos(angle), size * math.sin(angle), 0.0)},
-    )
+def _wave(
+    role: str, sign: str, wave: WaveSpec, units_per_mm: float, followed: Followed
+) -> ShaderPart:
+    if role not in followed:
+        return wave_part(role, sign, wave, units_per_mm)
+    return following(role, wave_part(role, sign, followed[role], units_per_mm))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: hoe_addon contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pictures that a display can show without a file: test chart, white field, grid of dots."""
+"""The pictures that need no file: test chart, white field, grid of dots, and those of symbols."""
 
 from pathlib import Path
 
@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ..model.device_parts import BUILT_IN_IMAGES
 from ..model.field_error import FieldError
-from . import stroke_font
-from .canvas import Canvas, Colour
+from . import stroke_font, symbols
+from .canvas import Canvas, Colour, text
 
 FIELD_DEG = (19.0, 10.7)
 """Field that the chart is labelled for, unless another is given."""
@@ -39,18 +39,24 @@ _PATCHES: tuple[Colour, ...] = (
 _LETTERS = ("HOLO", "DRKCN", "SVZHODN", "KCRSZVNHD", "ONDRSKHCVZO")
 _LETTER_HEIGHTS = (1.0, 0.62, 0.42, 0.28, 0.18)
 _CYCLES_PER_DEG = (2, 4, 6)
+_LONGEST_HEADING = 20  # letters; more would touch the frame
 
 
 def built_in(
-    name: str, width: int, height: int, field_deg: tuple[float, float] = FIELD_DEG
+    name: str,
+    width: int,
+    height: int,
+    field_deg: tuple[float, float] = FIELD_DEG,
+    title: str = "HOLOGRAM",
 ) -> NDArray[np.float32]:
     """Draw a built-in picture. Same arguments, same pixels.
 
     Args:
-        name: ``chart``, ``white`` or ``dots``.
+        name: ``chart``, ``white``, ``dots``, ``bars``, ``reticle`` or ``speed``.
         width: Pixels across.
         height: Pixels from top to bottom.
         field_deg: Horizontal and vertical field that the chart fills, full angles in degrees.
+        title: What the chart is headed with; letters that the font lacks are left out.
 
     Returns:
         Drives of the display's primaries, linear, 0 to 1, shape ``(height, width, 3)``, top row
@@ -63,15 +69,21 @@ def built_in(
         raise FieldError("image", f"must be one of {', '.join(BUILT_IN_IMAGES)}", name)
     if name == "white":
         return np.ones((height, width, 3), dtype=np.float32)
-    pixels = _dots(width, height) if name == "dots" else _chart(width, height, field_deg)
+    if name in symbols.PICTURES:
+        pixels = symbols.PICTURES[name](width, height)
+    elif name == "dots":
+        pixels = _dots(width, height)
+    else:
+        pixels = _chart(width, height, field_deg, title)
     return pixels.astype(np.float32)
 
 
-def check_picture(path: Path) -> None:
-    """Make sure that a display's image file is a picture that can be read whole.
+def check_picture(path: Path, field: str = "display.image") -> None:
+    """Make sure that an image file is a picture that can be read whole.
 
     Args:
         path: The file.
+        field: Field that names it.
 
     Raises:
         FieldError: It is not one.
@@ -84,7 +96,7 @@ def check_picture(path: Path) -> None:
     if pixels is None:
         # OpenImageIO keeps its message until it is asked for.
         oiio.geterror()
-        raise FieldError("display.image", "must be a picture that can be read", path.name)
+        raise FieldError(field, "must be a picture that can be read", path.name)
 
 
 def dot_centres() -> NDArray[np.float64]:
@@ -107,7 +119,9 @@ def _dots(width: int, height: int) -> NDArray[np.float64]:
     return canvas.pixels
 
 
-def _chart(width: int, height: int, field_deg: tuple[float, float]) -> NDArray[np.float64]:
+def _chart(
+    width: int, height: int, field_deg: tuple[float, float], heading: str
+) -> NDArray[np.float64]:
     """Ticks are true to the angle and bars nearly so; all else scales with the field."""
     size = (2.0 * _place(field_deg[0] / 2.0), 2.0 * _place(field_deg[1] / 2.0))
     canvas = Canvas(width, height, size)
@@ -115,9 +129,10 @@ def _chart(width: int, height: int, field_deg: tuple[float, float]) -> NDArray[n
     _frame(canvas, size, scale)
     _ticks(canvas, field_deg, scale)
     _cross(canvas, scale)
-    _text(canvas, "TWO HOLOGRAM AR", (0.0, 3.75 * scale), 0.8 * scale, _WHITE)
+    heading = stroke_font.printable(heading)[:_LONGEST_HEADING]
+    text(canvas, heading, (0.0, 3.75 * scale), 0.8 * scale, _WHITE)
     title = f"{field_deg[0]:.3g} x {field_deg[1]:.3g} DEG"
-    _text(canvas, title, (0.0, 2.8 * scale), 0.4 * scale, _ACCENT)
+    text(canvas, title, (0.0, 2.8 * scale), 0.4 * scale, _ACCENT)
     _bars(canvas, scale)
     _letters(canvas, scale)
     _patches(canvas, scale)
@@ -157,7 +172,7 @@ def _ticks(canvas: Canvas, field_deg: tuple[float, float], scale: float) -> None
         for degree in range(-last, last + 1):
             if degree % 5 == 0:
                 spot = (_place(degree), -edge + 0.6 * scale)
-                _text(canvas, f"{degree}", spot[:: 1 - 2 * axis], 0.2 * scale, _ACCENT)
+                text(canvas, f"{degree}", spot[:: 1 - 2 * axis], 0.2 * scale, _ACCENT)
 
 
 def _cross(canvas: Canvas, scale: float) -> None:
@@ -175,12 +190,12 @@ def _cross(canvas: Canvas, scale: float) -> None:
 def _bars(canvas: Canvas, scale: float) -> None:
     """Groups of upright and level bars; 7 degrees off the centre they are 1.5 % finer in angle."""
     side = 1.5 * scale
-    _text(canvas, "C/DEG", (-7.8 * scale, 2.1 * scale), 0.2 * scale, _QUIET)
+    text(canvas, "C/DEG", (-7.8 * scale, 2.1 * scale), 0.2 * scale, _QUIET)
     for row, cycles in enumerate(_CYCLES_PER_DEG):
         y = (1.3 - 1.75 * row) * scale
         count = max(round(side * cycles), 1)
         extent = (count - 0.5) / cycles
-        _text(canvas, f"{cycles}", (-7.8 * scale, y), 0.4 * scale, _ACCENT)
+        text(canvas, f"{cycles}", (-7.8 * scale, y), 0.4 * scale, _ACCENT)
         for column in (0, 1):
             x = (-6.3 + 1.75 * column) * scale
             for bar in range(count):
@@ -193,9 +208,9 @@ def _bars(canvas: Canvas, scale: float) -> None:
 
 def _letters(canvas: Canvas, scale: float) -> None:
     top = 1.9
-    for text, height in zip(_LETTERS, _LETTER_HEIGHTS, strict=True):
+    for letters, height in zip(_LETTERS, _LETTER_HEIGHTS, strict=True):
         place = (5.6 * scale, (top - height / 2.0) * scale)
-        _text(canvas, text, place, height * scale, _WHITE)
+        text(canvas, letters, place, height * scale, _WHITE)
         top -= height + 0.38
 
 
@@ -205,14 +220,3 @@ def _patches(canvas: Canvas, scale: float) -> None:
         x = (number - 0.5 * (len(_PATCHES) - 1)) * pitch
         canvas.rectangle((x - half, -4.15 * scale), (x + half, -3.35 * scale))
         canvas.paint(colour)
-
-
-def _text(
-    canvas: Canvas, text: str, centre: tuple[float, ...], height: float, colour: Colour
-) -> None:
-    step = height / stroke_font.GRID_HEIGHT
-    x = centre[0] - step * stroke_font.width(text) / 2.0
-    y = centre[1] - height / 2.0
-    for (x0, y0), (x1, y1) in stroke_font.strokes(text):
-        canvas.stroke((x + step * x0, y + step * y0), (x + step * x1, y + step * y1), 0.48 * step)
-    canvas.paint(colour)

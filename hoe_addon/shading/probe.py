@@ -5,6 +5,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from .part import ShaderPart
 from .source import ShaderSource, array, specialised
 
 MISSED = 4.0
@@ -37,6 +38,28 @@ def direction_world_shader() -> ShaderSource:
     return specialised("hoe_probe_direction", {})
 
 
-def position_shader() -> ShaderSource:
-    """The surface that answers with the point where it is hit."""
-    return specialised("hoe_probe_position", {})
+def first_hit_only(source: ShaderSource) -> ShaderSource:
+    """A hologram whose second hit by the same ray, on a curved surface, changes nothing.
+
+    Args:
+        source: The hologram's shader.
+
+    Returns:
+        The flat text.
+    """
+    return ShaderSource(source.name, f"#define HOE_FIRST_HIT_ONLY 1\n{source.text}")
+
+
+def position_shader(part: ShaderPart | None = None) -> ShaderSource:
+    """The surface that answers with the point where it is hit.
+
+    Args:
+        part: What moves the hit from a facet onto the true surface, if anything does.
+
+    Returns:
+        The flat text.
+    """
+    if part is None:
+        return specialised("hoe_probe_position", {})
+    definitions = {"HOE_SURFACE_PARAMETERS": part.parameters, "HOE_FIND_NORMAL": part.code}
+    return specialised("hoe_probe_position", definitions, part.functions)

@@ -31,21 +31,30 @@ _GLYPHS = {
     "8": "13 04 05 16 36 45 44 33 13 02 01 10 30 41 42 33",
     "9": "01 10 30 41 45 36 16 05 04 13 33 44",
     "A": "00 26 40, 12 32",
+    "B": "00 06 36 45 44 33 03, 33 42 41 30 00",
     "C": "45 36 16 05 01 10 30 41",
     "D": "00 06 26 45 41 20 00",
     "E": "46 06 00 40, 03 33",
+    "F": "46 06 00, 03 33",
     "G": "45 36 16 05 01 10 30 41 43 23",
     "H": "00 06, 40 46, 03 43",
+    "I": "20 26",
+    "J": "46 41 30 10 01",
     "K": "00 06, 46 02, 13 40",
     "L": "06 00 40",
     "M": "00 06 23 46 40",
     "N": "00 06 40 46",
     "O": "10 01 05 16 36 45 41 30 10",
+    "P": "00 06 36 45 44 33 03",
+    "Q": "10 01 05 16 36 45 41 30 10, 22 40",
     "R": "00 06 36 45 44 33 03, 23 40",
     "S": "45 36 16 05 04 13 33 42 41 30 10 01",
     "T": "06 46, 26 20",
+    "U": "06 01 10 30 41 46",
     "V": "06 20 46",
     "W": "06 10 24 30 46",
+    "X": "00 46, 06 40",
+    "Y": "06 23 46, 23 20",
     "Z": "06 46 00 40",
     "x": "00 44, 04 40",
 }
@@ -56,6 +65,11 @@ type Point = tuple[float, float]
 def width(text: str) -> float:
     """Width of a line of text, from the first stroke's place to the last, in steps of the grid."""
     return len(text) * (_WIDTH + _GAP) - _GAP
+
+
+def printable(text: str) -> str:
+    """The capitals of a text, without the letters that the font lacks."""
+    return "".join(letter for letter in text.upper() if letter in _GLYPHS)
 
 
 def strokes(text: str) -> Iterator[tuple[Point, Point]]:

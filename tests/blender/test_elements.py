@@ -6,6 +6,7 @@ import json
 import math
 from collections import Counter
 from itertools import pairwise, product
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -13,19 +14,27 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hoe_addon.blender import meshes
+from hoe_addon.blender import meshes, nodes
 from hoe_addon.blender.device import build_device
+from hoe_addon.blender.element import ERROR_PROPERTY, hologram_element, surface_of
 from hoe_addon.blender.eye import add_eye, set_pupil
 from hoe_addon.blender.guide import add_guide, patch_frame
+from hoe_addon.blender.materials import hologram_material
 from hoe_addon.blender.spectral import SpectralScene, spectral_scene
+from hoe_addon.core.errors import SpecError
 from hoe_addon.core.spectrum import line
+from hoe_addon.core.units import m_to_mm, mm_to_m
 from hoe_addon.core.wavelength_sampling import by_significance
 from hoe_addon.model.device import LightGuideSpec
 from hoe_addon.model.device_parts import EyeSpec
-from hoe_addon.model.document import device_from, find_device, load_device
+from hoe_addon.model.document import device_from, find_device, hologram_from, load_device
+from hoe_addon.model.element import element_mesh, element_shape
+from hoe_addon.model.hologram import HologramSpec
 from hoe_addon.resources import preset_paths
+from hoe_addon.shading.hologram import hologram_shader
 
 PRESET = "two_hologram_ar"
+LENS = Path(__file__).parents[1] / "documents" / "lens.json"
 
 FLOAT32 = 1e-6
 """Relative: Blender keeps coordinates and settings as float32, 6e-8, and areas are sums of them."""
@@ -191,6 +200,90 @@ def test_a_disk_has_the_area_of_its_circle(
     (polygon,) = meshes.disk("disk", diameter, sides).polygons
     assert polygon.area == pytest.approx(math.pi * diameter**2 / 4.0, rel=FLOAT32)
     assert tuple(polygon.normal) == pytest.approx((0.0, 0.0, 1.0))
+
+
+CURVED = {
+    "round plane": {"shape": "plane", "size_mm": [30, 20], "outline": "ellipse"},
+    "sphere": {"shape": "sphere", "size_mm": [30, 20], "radius_mm": -40},
+    "round conic": {
+        "shape": "conic",
+        "size_mm": [30, 20],
+        "radius_mm": 30,
+        "conic": -1,
+        "outline": "ellipse",
+    },
+    "mesh": {
+        "shape": "mesh",
+        "vertices_mm": [[-15, -10, 0], [15, -10, 0], [15, 10, 0], [-15, 10, 0]],
+        "faces": [[0, 1, 2], [0, 2, 3]],
+        "normals": [[-0.02, 0, 1], [0.02, 0, 1], [0.02, 0, 1], [-0.02, 0, 1]],
+    },
+}
+
+
+def curved(name: str) -> HologramSpec:
+    document = json.loads(LENS.read_text(encoding="utf-8"))
+    return hologram_from(document | {"surface": CURVED[name]})
+
+
+@pytest.mark.parametrize("name", CURVED)
+def test_an_element_lies_on_its_surface(clean_scene: bpy.types.Scene, name: str) -> None:
+    """In scene units; its triangles cover the outline and face the front."""
+    spec = curved(name)
+    item = hologram_element(clean_scene.collection, spec, units_per_mm=0.1, location=(1, 2, 3))
+    assert tuple(item.location) == (1.0, 2.0, 3.0)
+    corners = corners_of(item.data) * 10.0
+    shape = element_shape(spec)
+    expected = m_to_mm(shape.sag(*mm_to_m(corners[:, :2].T)))
+    if name != "mesh":
+        np.testing.assert_allclose(corners[:, 2], expected, atol=1e-5)
+    area = sum(polygon.area * polygon.normal.z for polygon in item.data.polygons) * 100.0
+    whole = 600.0 * (math.pi / 4.0 if name.startswith("round") else 1.0)
+    assert area == pytest.approx(whole, rel=1.2e-4)
+    assert 0.0 <= item[ERROR_PROPERTY] <= 1e-4
+    assert (item[ERROR_PROPERTY] == 0.0) == (name == "round plane")
+
+
+def test_the_mesh_of_an_object_becomes_a_surface(clean_scene: bpy.types.Scene) -> None:
+    """With its modifiers; and what has no faces is refused."""
+    ball = hologram_element(clean_scene.collection, curved("sphere"), units_per_mm=0.1)
+    ball.modifiers.new("Cut", "TRIANGULATE")
+    surface = surface_of(ball, units_per_mm=0.1)
+    exact = element_mesh(curved("sphere")).mesh
+    shape = surface.core_shape()
+    np.testing.assert_allclose(shape.vertices, exact.vertices, atol=1e-8)
+    np.testing.assert_allclose(shape.normals, exact.normals, atol=FLOAT32)
+    assert len(shape.faces) == len(exact.faces)
+    bare = meshes.add(clean_scene.collection, meshes.from_polygons("bare", [(0, 0, 0)], []))
+    with pytest.raises(SpecError, match="faces: must not be empty"):
+        surface_of(bare)
+
+
+@pytest.mark.parametrize("name", ["sphere", "mesh"])
+def test_normals_of_an_element_are_there_twice(clean_scene: bpy.types.Scene, name: str) -> None:
+    """As Blender's own, for all shaders, and in full precision, for the hologram's."""
+    spec = curved(name)
+    mesh = hologram_element(clean_scene.collection, spec).data
+    exact = element_mesh(spec).mesh.normals
+    own = np.array([tuple(vertex.normal) for vertex in mesh.vertices])
+    stored = np.empty(exact.size, dtype=np.float32)
+    mesh.attributes[meshes.NORMAL_ATTRIBUTE].data.foreach_get("vector", stored)
+    np.testing.assert_allclose(stored.reshape(-1, 3), exact, atol=FLOAT32)
+    np.testing.assert_allclose(own, exact, atol=FLOAT32)
+    assert all(polygon.use_smooth for polygon in mesh.polygons)
+
+
+def test_the_material_of_a_mesh_asks_for_its_normals(
+    clean_scene: bpy.types.Scene, spectral: SpectralScene
+) -> None:
+    """And no longer when the surface is another one."""
+    material = hologram_material(curved("mesh"), spectral)
+    (feeder,) = [n for n in material.node_tree.nodes if n.bl_idname == "ShaderNodeAttribute"]
+    assert feeder.attribute_name == meshes.NORMAL_ATTRIBUTE
+    assert feeder.outputs["Vector"].links[0].to_socket.identifier == "attribute_hoe_normal"
+    nodes.set_script(nodes.script_node(material), hologram_shader(curved("sphere")))
+    kinds = {node.bl_idname for node in material.node_tree.nodes}
+    assert "ShaderNodeAttribute" not in kinds
 
 
 def eye(diameter: float, field: float, focus: float | None = None) -> EyeSpec:

@@ -11,8 +11,10 @@ import pytest
 from hoe_addon.blender import ids
 from hoe_addon.blender.props import values
 from hoe_addon.core.media import CATALOGUE
+from hoe_addon.model.characteristic import CHARACTERISTICS
 from hoe_addon.model.efficiency import ConstantSpec, KinoformSpec
-from hoe_addon.model.waves import PlaneWaveSpec, PointSourceSpec
+from hoe_addon.model.surface import SURFACES
+from hoe_addon.model.waves import WAVES
 
 ROUNDED_DOWN = 2.4e-7
 """Two units in the last place of a float32: the next smaller one may have to be taken."""
@@ -40,7 +42,9 @@ def test_choices_are_those_of_the_documents() -> None:
     def tags(*structs: Any) -> set[str]:
         return {struct.__struct_config__.tag for struct in structs}
 
-    assert {kind.value for kind in ids.WaveKind} == tags(PlaneWaveSpec, PointSourceSpec)
+    assert {kind.value for kind in ids.WaveKind} == tags(*WAVES)
+    assert {kind.value for kind in ids.CharacteristicKind} == tags(*CHARACTERISTICS)
+    assert {shape.value for shape in ids.Shape} == tags(*SURFACES)
     assert {model.value for model in ids.EfficiencyModel} == tags(KinoformSpec, ConstantSpec)
     assert [name for name, *_ in ids.catalogue_items()] == list(CATALOGUE)
 

@@ -40,7 +40,7 @@ def test_every_preset_is_valid_and_round_trips(name: str) -> None:
 
 
 BROKEN = [
-    ("kind=torch", 'kind: must be one of light_guide, got "torch"'),
+    ("kind=torch", 'kind: must be one of light_guide, scene, got "torch"'),
     ("guide.thickness_mm=0", "guide.thickness_mm: must be above 0, got 0"),
     ("guide.relief_mm=-1", "guide.relief_mm: must be above 0, got -1"),
     ("guide.medium=0.5", "guide.medium: must be at least 1, got 0.5"),
@@ -60,7 +60,7 @@ BROKEN = [
     ("eye.focus_mm=0", "eye.focus_mm: must be above 0, got 0"),
     ("eye.field_deg=180", "eye.field_deg: must be below 180, got 180"),
     ("eyebox.grid=[0, 3]", "eyebox.grid[0]: must be from 1 to 101, got 0"),
-    ("room.kind=cave", "room.kind: must be one of living_room, none"),
+    ("room.kind=cave", "room.kind: must be one of desk, living_room, none"),
     ("render.mode=fast", "render.mode: must be one of preview, spectral"),
     ("render.size=[640]", "render.size: must be a list of length 2, got [640]"),
     ("render.samples=0", "render.samples: must be from 1 to 1000000, got 0"),
@@ -108,7 +108,7 @@ def test_patch_as_hologram() -> None:
 def test_own_file_with_its_picture(tmp_path: Path) -> None:
     path = tmp_path / "mine.json"
     shutil.copy(preset_paths()[AR], path)
-    with pytest.raises(SpecError, match=r"display\.image: must be chart, white, dots or a file"):
+    with pytest.raises(SpecError, match=r"display\.image: must be chart, white, dots, bars, reticle, speed or a"):
         load_device(path, ["display.image=photo.png"])
     (tmp_path / "photo.png").touch()
     spec = load_device(path, ["display.image=photo.png"])

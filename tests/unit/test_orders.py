@@ -79,17 +79,56 @@ def test_fold_is_reciprocal(rng: np.random.Generator) -> None:
     np.testing.assert_array_equal(there, back)
 
 
-def test_order_zero_passes_where_the_gradient_is_not_defined() -> None:
+NOT_RECORDED = np.full(3, np.nan)
+
+
+def test_all_light_goes_straight_on_where_nothing_is_recorded() -> None:
     fan = order_weights(
-        (TRANSMITTED_ZERO, PLUS_ONE),
-        [0.5, 0.5],
+        (PLUS_ONE, TRANSMITTED_ZERO, REFLECTED_ZERO),
+        [0.5, 0.25, 0.125],
+        FLAT,
         AXIS,
-        AXIS,
-        np.full(3, np.nan),
+        np.stack((NOT_RECORDED, np.zeros(3))),
         1.0,
         1.0,
         1.5,
         total_internal_reflection=False,
     )
-    assert fan.status.tolist() == [Status.OK, Status.UNDEFINED]
-    assert fan.weights.tolist() == [0.5, 0.0]
+    absent = Status.UNDEFINED
+    assert fan.status.tolist() == [[absent, Status.OK, absent], [Status.OK] * 3]
+    assert fan.weights.tolist() == [[0.0, 1.0, 0.0], [0.5, 0.25, 0.125]]
+    assert np.isnan(fan.directions[0, [0, 2]]).all()
+    # Order 0 is plain refraction.
+    np.testing.assert_allclose(fan.directions[0, 1, 0], FLAT[0] / 1.5, rtol=1e-14)
+
+
+def test_order_zero_is_added_where_nothing_is_recorded_and_it_is_not_listed() -> None:
+    gradients = np.stack((NOT_RECORDED, np.zeros(3)))
+    args = ([0.5], FLAT, AXIS, gradients, 1.0, 1.0, 1.5)
+    fan = order_weights((PLUS_ONE,), *args, total_internal_reflection=False)
+    assert fan.branches == (PLUS_ONE, TRANSMITTED_ZERO)
+    assert fan.weights.tolist() == [[0.0, 1.0], [0.5, 0.0]]
+
+
+@pytest.mark.parametrize("fold", [False, True])
+def test_trapped_light_is_reflected_where_nothing_is_recorded(fold: bool) -> None:
+    args = ([0.5], STEEP, AXIS, NOT_RECORDED, 1.0, 1.5, 1.0)
+    fan = order_weights((PLUS_ONE,), *args, total_internal_reflection=fold)
+    assert fan.weights.sum() == (1.0 if fold else 0.0)
+    if fold:
+        assert fan.branches == (PLUS_ONE, TRANSMITTED_ZERO, REFLECTED_ZERO)
+        assert fan.status.tolist() == [Status.UNDEFINED, Status.EVANESCENT, Status.OK]
+
+
+def test_nothing_changes_where_everything_is_recorded(rng: np.random.Generator) -> None:
+    gradient = rng.uniform(-1.0, 1.0, (50, 3))
+    branches = (PLUS_ONE, TRANSMITTED_ZERO)
+    args = (AXIS, gradient, 1.0, 1.5, 1.0)
+    alone = order_weights(branches, [0.3, 0.7], STEEP, *args, total_internal_reflection=True)
+    gradient = np.concatenate((gradient, NOT_RECORDED[None]))
+    args = (AXIS, gradient, 1.0, 1.5, 1.0)
+    beside = order_weights(branches, [0.3, 0.7], STEEP, *args, total_internal_reflection=True)
+    assert beside.branches == alone.branches
+    np.testing.assert_array_equal(beside.weights[:-1], alone.weights)
+    np.testing.assert_array_equal(beside.directions[:-1], alone.directions)
+    np.testing.assert_array_equal(beside.status[:-1], alone.status)

@@ -45,7 +45,7 @@ def test_white_is_full_drive_everywhere() -> None:
 
 @pytest.mark.parametrize("name", ["", "Chart", "photo.png"])
 def test_unknown_name_is_told_the_names(name: str) -> None:
-    with pytest.raises(SpecError, match=r"image: must be one of chart, white, dots, got"):
+    with pytest.raises(SpecError, match=r"image: must be one of chart, white, dots, bars, reticle, speed, got"):
         built_in(name, 16, 9)
 
 

@@ -8,6 +8,7 @@ import bpy
 from bpy.props import (
     BoolProperty,
     CollectionProperty,
+    EnumProperty,
     FloatProperty,
     FloatVectorProperty,
     IntProperty,
@@ -16,7 +17,9 @@ from bpy.props import (
 )
 
 from ...model.document import SCHEMA
+from ..ids import CharacteristicKind, Outline, PatternKind, Shape
 from ..registration import class_registrars
+from . import details
 from .changes import mark
 from .efficiency import ORDER_LIMITS, HOE_PG_efficiency
 from .medium import HOE_PG_media
@@ -25,7 +28,15 @@ from .values import numbers, reset, store
 
 
 class HOE_PG_surface(bpy.types.PropertyGroup):
-    """The shape of the element."""
+    """The shape of the element; other shapes than a plane are kept as text."""
+
+    shape: EnumProperty(
+        name="Shape",
+        description="Shape of the surface",
+        items=Shape.items(),
+        default=Shape.PLANE,
+        update=mark,
+    )
 
     size_mm: FloatVectorProperty(
         name="Size",
@@ -40,18 +51,75 @@ class HOE_PG_surface(bpy.types.PropertyGroup):
         update=mark,
     )
 
+    outline: EnumProperty(
+        name="Outline",
+        description="Outline of the plane element",
+        items=Outline.items(),
+        default=Outline.RECTANGLE,
+        update=mark,
+    )
+
+    details: StringProperty(
+        name="Details",
+        description="JSON of a surface that is no plane; lengths in mm",
+        update=mark,
+    )
+
     def to_document(self) -> dict[str, Any]:
         """The surface as documents write it."""
-        return {"shape": "plane", "size_mm": numbers(self, "size_mm")}
+        if self.shape != Shape.PLANE:
+            return details.read(self.details, "shape", self.shape, "surface")
+        return {
+            "shape": "plane",
+            "size_mm": numbers(self, "size_mm"),
+            "outline": self.outline,
+        }
 
     def from_document(self, document: dict[str, Any], path: str) -> None:
         """Take the surface of a document.
 
         Args:
-            document: The surface, a plane.
+            document: The surface.
             path: Its path, for messages.
         """
+        reset(self)
+        self.shape = document["shape"]
+        if document["shape"] != Shape.PLANE:
+            self.details = details.written(document, "shape")
+            return
         store(self, "size_mm", document["size_mm"], path)
+        self.outline = document["outline"]
+
+
+class HOE_PG_characteristic(bpy.types.PropertyGroup):
+    """A characteristic function given outright."""
+
+    kind: EnumProperty(
+        name="Function",
+        description="Kind of characteristic function",
+        items=CharacteristicKind.items(),
+        default=CharacteristicKind.LINEAR,
+        update=mark,
+    )
+    details: StringProperty(
+        name="Details",
+        description="JSON of the function; lengths in mm, wavelengths in nm",
+        default='{"wavelength_nm": 532, "lines_per_mm": 600}',
+        update=mark,
+    )
+
+    def to_document(self) -> dict[str, Any]:
+        """The function as documents write it."""
+        return details.read(self.details, "kind", self.kind, "characteristic")
+
+    def from_document(self, document: dict[str, Any]) -> None:
+        """Take the function of a document.
+
+        Args:
+            document: The function.
+        """
+        self.kind = document["kind"]
+        self.details = details.written(document, "kind")
 
 
 def _axis(letter: str, default: tuple[float, float, float]) -> Any:
@@ -145,6 +213,18 @@ class HOE_PG_hologram(bpy.types.PropertyGroup):
     media: PointerProperty(
         name="Media", description="Media on the two sides of the surface", type=HOE_PG_media
     )
+    pattern: EnumProperty(
+        name="Pattern",
+        description="How it is said what is recorded",
+        items=PatternKind.items(),
+        default=PatternKind.RECORDING,
+        update=mark,
+    )
+    characteristic: PointerProperty(
+        name="Characteristic Function",
+        description="The function V(x, y) that is recorded",
+        type=HOE_PG_characteristic,
+    )
     recording: PointerProperty(
         name="Recording", description="How the hologram was recorded", type=HOE_PG_recording
     )
@@ -162,7 +242,7 @@ class HOE_PG_hologram(bpy.types.PropertyGroup):
             "name": self.id_data.name,
             "surface": self.surface.to_document(),
             "media": self.media.to_document(),
-            "recording": self.recording.to_document(),
+            self.pattern: getattr(self, self.pattern).to_document(),
             "efficiency": self.efficiency.to_document(),
             "orders": [entry.order for entry in self.orders],
         }
@@ -177,12 +257,16 @@ class HOE_PG_hologram(bpy.types.PropertyGroup):
         self.schema = document["schema"]
         self.surface.from_document(document["surface"], "surface")
         self.media.from_document(document["media"], "media")
-        self.recording.from_document(document["recording"], "recording")
+        if "characteristic" in document:
+            self.pattern = PatternKind.CHARACTERISTIC
+            self.characteristic.from_document(document["characteristic"])
+        else:
+            self.recording.from_document(document["recording"], "recording")
         self.efficiency.from_document(document["efficiency"], "efficiency")
         for order in document["orders"]:
             self.orders.add().order = order
 
 
 register, unregister = class_registrars(
-    (HOE_PG_surface, HOE_PG_frame, HOE_PG_order, HOE_PG_hologram)
+    (HOE_PG_surface, HOE_PG_characteristic, HOE_PG_frame, HOE_PG_order, HOE_PG_hologram)
 )

@@ -1,15 +1,27 @@
 # SPDX-FileCopyrightText: hoe_addon contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The recording as properties: two waves and a wavelength."""
+"""The recording as properties: two waves and a wavelength.
+
+Plane waves and points have properties of their own; other kinds are kept as text. A wave may follow
+an object: its numbers are then those in the frame of the object.
+"""
 
 from typing import Any
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, PointerProperty
+from bpy.props import (
+    BoolProperty,
+    EnumProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    PointerProperty,
+    StringProperty,
+)
 
 from ...model.fields import WAVELENGTH_RANGE_NM
 from ..ids import Beam, WaveKind
 from ..registration import class_registrars
+from . import details
 from .changes import mark
 from .values import number, numbers, reset, store
 
@@ -76,8 +88,32 @@ class HOE_PG_wave(bpy.types.PropertyGroup):
         update=mark,
     )
 
-    def to_document(self) -> dict[str, Any]:
-        """The wave as documents write it."""
+    details: StringProperty(
+        name="Details",
+        description="JSON of a wave that is neither a plane wave nor a point; lengths in mm",
+        update=mark,
+    )
+    follows: BoolProperty(
+        name="Follow Object",
+        description="Take the place of the source from an object of the scene",
+        default=False,
+        update=mark,
+    )
+    target: PointerProperty(
+        name="Source Object",
+        description="Object that is the source: its origin is the point, its -Z is the direction",
+        type=bpy.types.Object,
+        update=mark,
+    )
+
+    def to_document(self, path: str) -> dict[str, Any]:
+        """The wave as documents write it; in the frame of the object that it follows.
+
+        Args:
+            path: Its path, for messages.
+        """
+        if self.kind not in (WaveKind.PLANE, WaveKind.POINT):
+            return details.read(self.details, "kind", self.kind, path)
         wave: dict[str, Any] = {"kind": self.kind, "index": number(self, "index")}
         if self.kind == WaveKind.PLANE:
             return wave | {"direction": numbers(self, "direction")}
@@ -92,6 +128,9 @@ class HOE_PG_wave(bpy.types.PropertyGroup):
         """
         reset(self)
         self.kind = document["kind"]
+        if document["kind"] not in (WaveKind.PLANE, WaveKind.POINT):
+            self.details = details.written(document, "kind")
+            return
         store(self, "index", document["index"], path)
         if document["kind"] == WaveKind.PLANE:
             store(self, "direction", document["direction"], path)
@@ -123,8 +162,8 @@ class HOE_PG_recording(bpy.types.PropertyGroup):
         """The recording as documents write it."""
         return {
             "wavelength_nm": number(self, "wavelength_nm"),
-            "object": self.object.to_document(),
-            "reference": self.reference.to_document(),
+            "object": self.object.to_document("recording.object"),
+            "reference": self.reference.to_document("recording.reference"),
         }
 
     def from_document(self, document: dict[str, Any], path: str) -> None:

@@ -6,15 +6,22 @@ Properties are float32; `values` says what of a document's numbers comes back ex
 """
 
 import math
+from collections.abc import Mapping
 
 import bpy
 
 from ...core.errors import HoeError, SpecError
 from ...model.document import hologram_from, to_document
+from ...model.field_error import FieldError
 from ...model.hologram import HologramSpec
+from ...model.motion import to_wave
+from ...shading.following import ROLES
 from ...shading.hologram import Frame, hologram_shader, hologram_sockets
 from ...shading.source import ShaderSource
 from .. import nodes
+from ..following import Followed, drive, in_frame_of, lamp_like, waves_of
+from ..ids import PatternKind, WaveKind
+from ..maps import is_packed, prepare_map, update_map
 from ..spectral import use_wavelength
 from . import changes
 from .values import number, numbers, store
@@ -34,6 +41,7 @@ def write_spec(
     spec: HologramSpec,
     frame: Frame | None = None,
     units_per_mm: float = 1.0,
+    followed: Mapping[str, Followed] | None = None,
 ) -> None:
     """Write a hologram to the properties of a material; its nodes stay as they are.
 
@@ -42,6 +50,7 @@ def write_spec(
         spec: The hologram.
         frame: Where the recording's frame lies in the object; by default it is the object's own.
         units_per_mm: Scene units in one mm.
+        followed: Waves of its recording that follow an object, by role.
 
     Raises:
         SpecError: A number is outside what the properties can hold.
@@ -53,6 +62,10 @@ def write_spec(
         for field in ("origin", "x", "y"):
             store(properties.frame, field, getattr(placed, field), "frame")
         store(properties, "units_per_mm", units_per_mm, "hologram")
+        for role, entry in (followed or {}).items():
+            wave = getattr(properties.recording, role)
+            wave.from_document(to_document(entry.wave), f"recording.{role}")
+            wave.follows, wave.target = True, entry.target
         properties.enabled = True
 
 
@@ -63,7 +76,8 @@ def read_spec(material: bpy.types.Material) -> HologramSpec:
         material: The material; its name is the name of the hologram.
 
     Returns:
-        The valid hologram. What `write_spec` wrote comes back within the limits of `values`.
+        The valid hologram. What `write_spec` wrote comes back within the limits of `values`. A
+        wave that follows an object is given by where the object is now.
 
     Raises:
         SpecError: With the path of the field, the rule, and the value; or the material is no
@@ -72,7 +86,81 @@ def read_spec(material: bpy.types.Material) -> HologramSpec:
     properties = _properties(material)
     if not properties.enabled:
         raise SpecError(f"material {material.name}: is not a hologram")
-    return hologram_from(properties.to_document())
+    document = properties.to_document()
+    followed = read_followed(material)
+    if followed:
+        # A script may have moved things since Blender last looked.
+        bpy.context.view_layer.update()
+    for role, entry in followed.items():
+        frame, units = read_frame(material), number(properties, "units_per_mm")
+        wave = in_frame_of(entry, carrier_of(material), frame.matrix(), units)
+        document["recording"][role] = to_document(wave)
+    return hologram_from(document)
+
+
+def read_followed(material: bpy.types.Material) -> dict[str, Followed]:
+    """Read which waves of a hologram follow an object.
+
+    Args:
+        material: The material.
+
+    Returns:
+        Waves by role.
+
+    Raises:
+        SpecError: The object is gone, or the wave cannot follow one.
+    """
+    properties = _properties(material)
+    found: dict[str, Followed] = {}
+    if properties.pattern != PatternKind.RECORDING:
+        return found
+    for role in ROLES:
+        group = getattr(properties.recording, role)
+        if group.follows:
+            found[role] = _followed(group, f"recording.{role}")
+    return found
+
+
+def _followed(group: bpy.types.PropertyGroup, path: str) -> Followed:
+    if is_gone(group.target):
+        name = None if group.target is None else group.target.name
+        raise FieldError(f"{path}.target", "must be an object of the scene", name)
+    if group.kind == WaveKind.SYSTEM:
+        raise FieldError(f"{path}.follows", "must be off for a source behind optics", True)
+    try:
+        wave = to_wave(group.to_document(path))
+    except FieldError as error:
+        raise error.inside(path) from error
+    return Followed(group.target, lamp_like(wave))
+
+
+def is_gone(target: bpy.types.Object | None) -> bool:
+    """Tell whether a source object was deleted.
+
+    Args:
+        target: What the property holds. Blender keeps a deleted object while something points to
+            it, only in no collection.
+
+    Returns:
+        True if nothing can be followed.
+    """
+    return target is None or not target.users_collection
+
+
+def carrier_of(material: bpy.types.Material) -> bpy.types.Object | None:
+    """Find the object that carries a hologram.
+
+    Args:
+        material: The material.
+
+    Returns:
+        The first object by name whose mesh has the material, or None.
+    """
+    for item in bpy.data.objects:
+        slots = getattr(item.data, "materials", None) or ()
+        if any(slot == material for slot in slots):
+            return item
+    return None
 
 
 def read_frame(material: bpy.types.Material) -> Frame:
@@ -112,15 +200,24 @@ def refresh(material: bpy.types.Material, wavelength: bpy.types.NodeTree | None 
         SpecError: The properties do not make a valid hologram.
         MissingOslError: The text would have to be compiled, and this Blender has no OSL.
         ShaderCompileError: The text does not compile.
+        HoeError: A map that the pattern needs cannot be made.
     """
     properties = _properties(material)
     changes.forget(material)
     try:
         spec = read_spec(material)
+        followed = read_followed(material)
+        waves = waves_of(followed)
         frame, units_per_mm = read_frame(material), number(properties, "units_per_mm")
+        # What can fail comes first: the last good shader stays.
+        prepare_map(spec, waves)
         changed = _bring_up_to_date(
-            material, hologram_shader(spec), hologram_sockets(spec, frame, units_per_mm)
+            material,
+            hologram_shader(spec, waves),
+            hologram_sockets(spec, frame, units_per_mm, waves),
         )
+        drive(_shader_node(material), followed)
+        update_map(material, spec, frame, units_per_mm, waves, pack=is_packed(material))
     except HoeError as error:
         properties.problem = str(error)
         raise
@@ -178,6 +275,12 @@ def _properties(material: bpy.types.Material) -> bpy.types.PropertyGroup:
     return material.hologram
 
 
+def _shader_node(material: bpy.types.Material) -> bpy.types.Node:
+    node = hologram_node(material)
+    assert node is not None
+    return node
+
+
 def _bring_up_to_date(
     material: bpy.types.Material, source: ShaderSource, values: dict[str, nodes.SocketValue]
 ) -> bool:
@@ -188,6 +291,7 @@ def _bring_up_to_date(
     before = node.script
     changed = before.name != f"{source.name}_{source.digest}.osl"
     if changed:
+        drive(node, {})  # a driver of a socket that goes would stay behind
         nodes.set_script(node, source)
         _drop_unused(before)
     nodes.set_values(node, values)

@@ -6,8 +6,25 @@ The eikonal of a wave is its optical path length up to a constant; its gradient 
 index of the medium times the unit direction of propagation.
 """
 
+from .astigmatic import AstigmaticSource
+from .extended import ExtendedSource
 from .plane import PlaneWave
 from .point import PointSource
+from .source_shapes import Disc, Line, Rectangle, SourceShape, TriangleMesh
 from .wave import Wave
+from .window import FlatWindow, WindowSource
 
-__all__ = ["PlaneWave", "PointSource", "Wave"]
+__all__ = [
+    "AstigmaticSource",
+    "Disc",
+    "ExtendedSource",
+    "FlatWindow",
+    "Line",
+    "PlaneWave",
+    "PointSource",
+    "Rectangle",
+    "SourceShape",
+    "TriangleMesh",
+    "Wave",
+    "WindowSource",
+]

@@ -13,7 +13,7 @@ from .wave import check_direction, check_index
 
 @dataclass(frozen=True)
 class PlaneWave:
-    """A plane recording wave.
+    """A plane recording wave: a source at infinity, real and virtual alike.
 
     Attributes:
         direction: Direction of propagation, any length but zero.

@@ -15,8 +15,10 @@ from .wave import check_index, check_vector
 class PointSource:
     """A spherical recording wave, diverging from or converging toward a point.
 
-    A point that the wave diverges from is a real source; one that it converges toward, beyond the
-    hologram, is what some programs call virtual.
+    A diverging wave comes from its point: a real source, on the side that the wave comes from. A
+    converging wave runs toward its point, which it reaches only beyond the hologram: a virtual
+    source. Only the beam tells the two apart; the point may lie on either side of the surface,
+    and with it the wave arrives from the one side or the other.
 
     Attributes:
         position: The point, metres.

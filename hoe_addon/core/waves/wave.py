@@ -67,7 +67,7 @@ def check_direction(field: str, values: Sequence[float]) -> tuple[float, float, 
     return direction
 
 
-def check_index(index: float) -> None:
+def check_index(index: float, field: str = "index") -> None:
     """Raise SpecError unless the refractive index is finite and at least 1."""
     if not (math.isfinite(index) and index >= 1.0):
-        raise SpecError(f"index: must be at least 1, got {index}")
+        raise SpecError(f"{field}: must be at least 1, got {index}")

@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every JSON block of the documentation is a valid document, or a valid part of one."""
+
+import copy
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from hoe_addon.model.characteristic import CHARACTERISTICS
+from hoe_addon.model.document import hologram_from
+from hoe_addon.model.surface import SURFACES
+from hoe_addon.model.waves import WAVES
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = (ROOT / "README.md", ROOT / "docs" / "holograms.md")
+LENS = json.loads((ROOT / "tests" / "documents" / "lens.json").read_text(encoding="utf-8"))
+FILES_NEEDED = {"sampled"}
+"""Kinds that name a file, which a page does not have."""
+
+
+def tags(*structs: Any) -> set[str]:
+    return {struct.__struct_config__.tag for struct in structs}
+
+
+def blocks() -> list[Any]:
+    found: list[Any] = []
+    for page in PAGES:
+        for text in re.findall(r"^```json\n(.*?)^```", page.read_text("utf-8"), re.M | re.S):
+            part = json.loads(text)
+            name = part.get("kind") or part.get("shape") or part["name"]
+            found.append(pytest.param(part, id=f"{page.stem}-{len(found)}-{name}"))
+    return found
+
+
+def whole(part: dict[str, Any]) -> dict[str, Any]:
+    """A hologram that holds this part."""
+    document = copy.deepcopy(LENS)
+    if part.get("kind") in tags(*WAVES):
+        document["recording"]["object"] = part
+    elif part.get("kind") in tags(*CHARACTERISTICS):
+        document["characteristic"] = part
+        del document["recording"]
+    elif "schema" in part:
+        document = part
+    else:
+        document["surface"] = part
+    return document
+
+
+@pytest.mark.parametrize("part", blocks())
+def test_block_is_valid(part: dict[str, Any]) -> None:
+    hologram_from(whole(part))
+
+
+def test_every_kind_is_documented() -> None:
+    shown = [block.values[0] for block in blocks()]
+    kinds = {part.get("kind") for part in shown}
+    assert tags(*WAVES, *CHARACTERISTICS) - FILES_NEEDED <= kinds
+    shapes = [part.get("shape") for part in shown]
+    assert all(shape in shapes for shape in tags(*SURFACES))
+    page = (ROOT / "docs" / "holograms.md").read_text(encoding="utf-8")
+    for kind in FILES_NEEDED:
+        assert f'{{"kind": "{kind}"' in page
