@@ -92,11 +92,9 @@ def add_holder(collection: bpy.types.Collection, element: HolderElement) -> bpy.
     if element.rod_mm > 0.0:
         top, low = -half[1] - rim / 2.0, -half[1] - rim - element.rod_mm
         rod = shapes.tube(np.asarray([(0.0, 0.0, low), (0.0, 0.0, top)]), _ROD_RADIUS, 24)
-        foot = shapes.lathe(
-            [(0.0, low), (_FOOT_RADIUS, low), (_FOOT_RADIUS, low + _FOOT_HEIGHT)]
-            + [(0.0, low + _FOOT_HEIGHT)],
-            _SIDES,
-        )
+        high = low + _FOOT_HEIGHT
+        profile = [(0.0, low), (_FOOT_RADIUS, low), (_FOOT_RADIUS, high), (0.0, high)]
+        foot = shapes.lathe(profile, _SIDES)
         parts += [part.turned("x", -90.0) for part in (rod, foot)]
     mesh = shapes.joined(parts).mesh(element.name)
     return meshes.add(collection, mesh, materials.matte(element.name, element.color))

@@ -12,7 +12,7 @@ from pathlib import Path
 import bpy
 
 from ..model.device_parts import BUILT_IN_IMAGES, RenderSpec, RoomSpec
-from ..shading.pictures import FIELD_DEG, built_in, check_picture
+from ..shading.pictures import built_in, check_picture
 from .backdrops import add_backdrop
 from .materials import picture
 from .render_settings import set_up
@@ -65,7 +65,7 @@ def display_image(
     size_mm: tuple[float, float],
     folder: Path,
     field: str,
-    field_deg: tuple[float, float] = FIELD_DEG,
+    field_deg: tuple[float, float] | None = None,
     title: str = "HOLOGRAM",
 ) -> bpy.types.Image:
     """The picture of a display or a card as a packed image.
@@ -75,7 +75,7 @@ def display_image(
         size_mm: Width and height that it is shown with.
         folder: Folder that a file is relative to.
         field: Field of the document that names it, for messages.
-        field_deg: Field that a chart is labelled for.
+        field_deg: Field that a chart is labelled for; None for no label.
         title: What a chart is headed with.
 
     Returns:

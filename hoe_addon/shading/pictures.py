@@ -46,7 +46,7 @@ def built_in(
     name: str,
     width: int,
     height: int,
-    field_deg: tuple[float, float] = FIELD_DEG,
+    field_deg: tuple[float, float] | None = FIELD_DEG,
     title: str = "HOLOGRAM",
 ) -> NDArray[np.float32]:
     """Draw a built-in picture. Same arguments, same pixels.
@@ -55,7 +55,8 @@ def built_in(
         name: ``chart``, ``white``, ``dots``, ``bars``, ``reticle`` or ``speed``.
         width: Pixels across.
         height: Pixels from top to bottom.
-        field_deg: Horizontal and vertical field that the chart fills, full angles in degrees.
+        field_deg: Horizontal and vertical field that the chart fills, full angles in degrees; None
+            for one that is not looked at from infinity, which then has no scale of angles.
         title: What the chart is headed with; letters that the font lacks are left out.
 
     Returns:
@@ -120,19 +121,21 @@ def _dots(width: int, height: int) -> NDArray[np.float64]:
 
 
 def _chart(
-    width: int, height: int, field_deg: tuple[float, float], heading: str
+    width: int, height: int, labelled_deg: tuple[float, float] | None, heading: str
 ) -> NDArray[np.float64]:
     """Ticks are true to the angle and bars nearly so; all else scales with the field."""
+    field_deg = FIELD_DEG if labelled_deg is None else labelled_deg
     size = (2.0 * _place(field_deg[0] / 2.0), 2.0 * _place(field_deg[1] / 2.0))
     canvas = Canvas(width, height, size)
     scale = min(size[0] / FIELD_DEG[0], size[1] / FIELD_DEG[1])
     _frame(canvas, size, scale)
-    _ticks(canvas, field_deg, scale)
+    if labelled_deg is not None:
+        _ticks(canvas, labelled_deg, scale)
+        title = f"{labelled_deg[0]:.3g} x {labelled_deg[1]:.3g} DEG"
+        text(canvas, title, (0.0, 2.8 * scale), 0.4 * scale, _ACCENT)
     _cross(canvas, scale)
     heading = stroke_font.printable(heading)[:_LONGEST_HEADING]
     text(canvas, heading, (0.0, 3.75 * scale), 0.8 * scale, _WHITE)
-    title = f"{field_deg[0]:.3g} x {field_deg[1]:.3g} DEG"
-    text(canvas, title, (0.0, 2.8 * scale), 0.4 * scale, _ACCENT)
     _bars(canvas, scale)
     _letters(canvas, scale)
     _patches(canvas, scale)

@@ -18,11 +18,21 @@ ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = sorted(path.parent for path in ROOT.glob("examples/*/run.py"))
 READ_OUT = ROOT / "examples" / "02_read_out_a_hologram"
 
-OPTIONS = {"01_two_hologram_ar": ["--samples", "8"]}
+OPTIONS = {
+    "01_two_hologram_ar": ["--samples", "8"],
+    "03_three_hologram_ar": ["--samples", "16"],
+}
 """What makes an example quick; the others are."""
 
-SLOW = {"01_two_hologram_ar"}
-"""About ten seconds even so."""
+SLOW = {
+    "01_two_hologram_ar",
+    "03_three_hologram_ar",
+    "05_grating_rainbow",
+    "06_compact_disc",
+    "07_holographic_sight",
+    "08_hud_combiner",
+}
+"""About five to ten seconds even so."""
 
 RESULTS = {
     "01_two_hologram_ar": {
@@ -33,6 +43,13 @@ RESULTS = {
         "view.png",
     },
     "02_read_out_a_hologram": {"cycles.csv", "numpy.csv"},
+    "03_three_hologram_ar": {"numbers.json"},
+    "04_point_lens": {"numbers.json"},
+    "05_grating_rainbow": {"numbers.json"},
+    "06_compact_disc": {"numbers.json"},
+    "07_holographic_sight": {"numbers.json"},
+    "08_hud_combiner": {"numbers.json"},
+    "09_diffractive_achromat": {"numbers.json"},
 }
 
 

@@ -121,7 +121,6 @@ def test_a_spot_is_seen_through_a_lens_where_exact_rays_say(lens: dict[str, Any]
     assert np.linalg.norm(found - wanted) < DIRECTION
 
 
-@pytest.mark.slow
 def test_the_kinoform_of_the_preset_takes_the_fringes_away() -> None:
     """A spot of F light and one of C light, seen near the rim of both lenses."""
     plain, mended = fringe("plain"), fringe("achromat")

@@ -108,7 +108,9 @@ def test_patch_as_hologram() -> None:
 def test_own_file_with_its_picture(tmp_path: Path) -> None:
     path = tmp_path / "mine.json"
     shutil.copy(preset_paths()[AR], path)
-    with pytest.raises(SpecError, match=r"display\.image: must be chart, white, dots, bars, reticle, speed or a"):
+    with pytest.raises(
+        SpecError, match=r"display\.image: must be chart, white, dots, bars, reticle, speed or a"
+    ):
         load_device(path, ["display.image=photo.png"])
     (tmp_path / "photo.png").touch()
     spec = load_device(path, ["display.image=photo.png"])

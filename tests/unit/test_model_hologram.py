@@ -62,8 +62,7 @@ BROKEN = [
     (
         "surface.shape",
         "torus",
-        "surface.shape: must be one of plane, sphere, conic, cylinder, asphere, mesh, "
-        'got "torus"',
+        'surface.shape: must be one of plane, sphere, conic, cylinder, asphere, mesh, got "torus"',
     ),
     ("surface.size_mm.1", 0, "surface.size_mm[1]: must be above 0, got 0"),
     ("surface.size_mm", [1], "surface.size_mm: must be a list of length 2, got [1]"),

@@ -45,7 +45,9 @@ def test_white_is_full_drive_everywhere() -> None:
 
 @pytest.mark.parametrize("name", ["", "Chart", "photo.png"])
 def test_unknown_name_is_told_the_names(name: str) -> None:
-    with pytest.raises(SpecError, match=r"image: must be one of chart, white, dots, bars, reticle, speed, got"):
+    with pytest.raises(
+        SpecError, match=r"image: must be one of chart, white, dots, bars, reticle, speed, got"
+    ):
         built_in(name, 16, 9)
 
 
@@ -136,3 +138,10 @@ def test_what_lies_outside_is_left_out() -> None:
     canvas.rectangle((6.0, 6.0), (8.0, 8.0))
     canvas.paint((1.0, 1.0, 1.0))
     assert not canvas.pixels.any()
+
+
+def test_chart_without_a_field_has_no_angles() -> None:
+    labelled, plain = built_in("chart", 640, 360), built_in("chart", 640, 360, None)
+    changed = np.argwhere((labelled != plain).any(axis=2))
+    assert len(changed)
+    assert (labelled >= plain - 1e-6).all()
