@@ -3,14 +3,16 @@
 """What scripts use, without any window; every name can be had from ``hoe_addon.blender`` too.
 
 - Documents: ``load_device``, ``load_hologram``, ``device_from``, ``hologram_from``,
-  ``to_document``, ``HologramSpec``, ``LightGuideSpec``.
+  ``to_document``, ``HologramSpec``, ``LightGuideSpec``, ``SceneSpec``.
 - Scenes: ``build_device`` and its ``DeviceScene``; ``set_up`` for Cycles; ``has_osl``,
   ``require_osl``; ``spectral_scene`` and its ``SpectralScene``, with ``by_significance``.
-- Elements: ``add_guide``, ``add_light_engine``, ``add_eye``, ``set_pupil``, ``patch_frame``.
+- Elements: ``hologram_element``, ``surface_of`` a mesh of one's own; ``add_guide``,
+  ``add_light_engine``, ``add_eye``, ``set_pupil``, ``patch_frame``.
 - Materials: ``hologram_material``, ``dielectric_material``, ``thin_lens_material``,
   ``display_material``, ``filter_material``, ``absorber_material``, ``picture``.
 - A hologram's properties, after ``hoe_addon.register()``: ``write_spec``, ``read_spec``,
-  ``read_frame``, ``Frame``; then ``refresh`` or ``refresh_changed`` for the shader.
+  ``read_frame``, ``Frame``; then ``refresh`` or ``refresh_changed`` for the shader. Sources that
+  are objects: ``Followed``. Maps of what has no formula: ``prepare_map``, ``update_map``.
 - Results: ``render_view``, ``save_view``, ``survey``, ``render_layers``, ``denoise``,
   ``trace_cycles``.
 """
@@ -25,13 +27,17 @@ from ..model.document import (
     to_document,
 )
 from ..model.hologram import HologramSpec
+from ..model.scene import SceneSpec
 from ..shading.hologram import Frame
 from .denoiser import denoise
 from .device import DeviceScene, build_device
+from .element import hologram_element, surface_of
 from .eye import add_eye, set_pupil
 from .eyebox import survey
+from .following import Followed
 from .guide import add_guide, patch_frame
 from .light_engine import add_light_engine
+from .maps import prepare_map, update_map
 from .materials import (
     absorber_material,
     dielectric_material,
@@ -51,9 +57,11 @@ from .view import render_view, save_view
 
 __all__ = [
     "DeviceScene",
+    "Followed",
     "Frame",
     "HologramSpec",
     "LightGuideSpec",
+    "SceneSpec",
     "SpectralScene",
     "absorber_material",
     "add_eye",
@@ -67,12 +75,14 @@ __all__ = [
     "display_material",
     "filter_material",
     "has_osl",
+    "hologram_element",
     "hologram_from",
     "hologram_material",
     "load_device",
     "load_hologram",
     "patch_frame",
     "picture",
+    "prepare_map",
     "read_frame",
     "read_spec",
     "refresh",
@@ -84,9 +94,11 @@ __all__ = [
     "set_pupil",
     "set_up",
     "spectral_scene",
+    "surface_of",
     "survey",
     "thin_lens_material",
     "to_document",
     "trace_cycles",
+    "update_map",
     "write_spec",
 ]

@@ -16,6 +16,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.errors import SpecError
 from ..model.motion import moved
 from ..model.waves import PlaneWaveSpec, PointSourceSpec, WaveSpec
 from ..shading.following import FRAME_SOCKETS, ROLES, frame_socket
@@ -105,16 +106,19 @@ def in_frame_of(
         The wave in the frame of the recording.
 
     Raises:
-        SpecError: The object is too far away for a document.
+        SpecError: The object is too far away for a document, or the carrier has no volume.
     """
-    here = np.eye(4) if carrier is None else np.array(carrier.matrix_world)
-    to_frame = np.linalg.inv(here @ frame)
+    here = frame if carrier is None else np.array(carrier.matrix_world) @ frame
+    lengths = np.linalg.norm(here[:3, :3], axis=0)
+    if not lengths.min() > 0.0:
+        raise SpecError(f"object {carrier and carrier.name}: must not be scaled to nothing")
+    # As in the shader: directions by the unit axes, places and lengths by the scaled ones.
     there = np.array(followed.target.matrix_world.to_quaternion().to_matrix())
-    rotation = to_frame[:3, :3] @ there
-    # The carrier may be scaled: what is left is the rotation.
-    rotation /= np.cbrt(np.linalg.det(rotation))
-    origin = to_frame @ np.append(np.array(followed.target.matrix_world.translation), 1.0)
-    return moved(followed.wave, rotation, origin[:3] / units)
+    rotation = (here[:3, :3] / lengths).T @ there
+    away = np.array(followed.target.matrix_world.translation) - here[:3, 3]
+    origin = np.linalg.solve(here[:3, :3], away)
+    scale = float(1.0 / np.cbrt(np.prod(lengths)))
+    return moved(followed.wave, rotation, origin / units, scale)
 
 
 def _drive(

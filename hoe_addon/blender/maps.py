@@ -118,8 +118,22 @@ def is_packed(material: bpy.types.Material) -> bool:
     Returns:
         False if its image stays in the file of the cache; True otherwise, as for a new map.
     """
-    texture = nodes.tree_of(material).nodes.get(_TEXTURE) if material.node_tree else None
-    return texture is None or texture.image is None or texture.image.packed_file is not None
+    image = map_image(material)
+    return image is None or image.packed_file is not None
+
+
+def map_image(material: bpy.types.Material) -> bpy.types.Image | None:
+    """Find the image of the map of a material.
+
+    Args:
+        material: Any material.
+
+    Returns:
+        The image, or None.
+    """
+    texture = material.node_tree.nodes.get(_TEXTURE) if material.node_tree else None
+    image = getattr(texture, "image", None)
+    return image if image is not None and _KEY in image.keys() else None  # noqa: SIM118
 
 
 def remove_map(material: bpy.types.Material) -> None:
@@ -153,6 +167,10 @@ def _image(path: Path, key: str, *, pack: bool) -> bpy.types.Image:
     """The image of a map: one that is there already, or the file, packed when asked."""
     for image in bpy.data.images:
         if image.get(_KEY) == key and (image.packed_file is not None) == pack:
+            if not pack:
+                # Its file may have been made anew.
+                image.filepath = str(path)
+                image.reload()
             return image
     image = bpy.data.images.load(str(path))
     image.name = _TEXTURE

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The modules that register something with Blender, each after those that it depends on."""
 
-from .props import efficiency, hologram, material, medium, recording, sync, targets
+from .props import efficiency, hologram, map_files, material, medium, recording, sync, targets
 from .registration import Part
 
 PARTS: tuple[Part, ...] = (
@@ -13,4 +13,5 @@ PARTS: tuple[Part, ...] = (
     material,
     sync,
     targets,
+    map_files,
 )

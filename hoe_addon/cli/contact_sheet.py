@@ -11,6 +11,7 @@ from ..core.errors import RenderError
 from ..files import replacing
 
 _MARGIN = 8
+_LEAST_WIDTH = 320  # pixels of a view; captions would run into each other on a smaller one
 _CAPTION = 34
 _TITLE = 54
 _PAPER = (0.10, 0.10, 0.11)
@@ -60,10 +61,16 @@ def write_contact_sheet(path: Path, views: Path, report: dict[str, Any]) -> None
 
 
 def _read(path: Path) -> oiio.ImageBuf:
+    """Read a view; one that is too small for its caption is enlarged by whole pixels."""
     picture = oiio.ImageBuf(str(path))
     if not picture.read(0, 0, True, oiio.UINT8):
         raise RenderError(f"{path}: cannot be read: {picture.geterror()}")
-    return picture
+    spec = picture.spec()
+    times = -(-_LEAST_WIDTH // spec.width)
+    if times == 1:
+        return picture
+    roi = oiio.ROI(0, spec.width * times, 0, spec.height * times, 0, 1, 0, spec.nchannels)
+    return oiio.ImageBufAlgo.resample(picture, False, roi)
 
 
 def _text(

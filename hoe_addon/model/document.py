@@ -68,7 +68,8 @@ def device_from(document: object) -> DeviceSpec:
     """
     current = _current(document)
     if "kind" not in current:
-        raise SpecError("kind: is missing")
+        what = "; this is a hologram, not a device" if "surface" in current else ""
+        raise SpecError(f"kind: is missing (known: {', '.join(_DEVICES)}){what}")
     kind = current["kind"]
     if not isinstance(kind, str) or kind not in _DEVICES:
         raise FieldError("kind", f"must be one of {', '.join(_DEVICES)}", kind)

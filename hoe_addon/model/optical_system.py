@@ -251,7 +251,7 @@ class SystemWaveSpec(
         """
         problem = _problem(self, surface, wavelength_nm)
         if problem is not None:
-            raise FieldError(f"surfaces[{problem.surface}]", problem.rule, 0)
+            raise FieldError(f"surfaces[{problem.surface}]", problem.rule, "0 rays")
 
 
 @lru_cache(maxsize=32)

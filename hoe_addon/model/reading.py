@@ -25,6 +25,7 @@ MAX_DEPTH = 64
 _PLACE = re.compile(r"^(?P<what>.*?)(?: - at `(?P<key>key in )?\$(?P<path>.*)`)?$", re.DOTALL)
 _STEP = re.compile(r"\.(?P<name>[^.\[]+)|\[(?P<index>\d+|\.\.\.)\]")
 _LENGTH = re.compile(r"Expected `array` of length (?P<length>[^,]+)(?:, got \d+)?")
+_TEXT_LENGTH = re.compile(r"Expected `str` of length <= (?P<length>\d+)")
 _TYPE = re.compile(r"Expected `(?P<expected>.+)`, got `(?P<got>.+)`")
 _JSON_TYPES = {"dict": "object", "list": "array", "NoneType": "null"}
 
@@ -185,6 +186,9 @@ def _rule(what: str, known: list[str]) -> str:
     length = _LENGTH.match(what)
     if length:
         return f"must be a list of length {length['length'].replace('>=', 'at least')}"
+    text = _TEXT_LENGTH.match(what)
+    if text:
+        return f"must be a text of at most {text['length']} characters"
     kind = _TYPE.match(what)
     if kind:
         return f"must be {in_words(kind['expected'])}"

@@ -16,6 +16,7 @@ from .field_error import FieldError
 from .scene_parts import CardElement, DisplayElement, ElementSpec, HologramElement
 
 _STEEPEST_DEG = 90.0
+_HALF_TURN_DEG = 180.0
 _MAX_ELEMENTS = 200
 
 
@@ -54,7 +55,9 @@ class SceneSpec(
         field_kinds.instance(self, "eye", EyeSpec)
         field_kinds.instance(self, "room", RoomSpec)
         field_kinds.instance(self, "render", RenderSpec)
-        _, up = fields.vector(self, "gaze_deg", 2)
+        aside, up = fields.vector(self, "gaze_deg", 2)
+        if abs(aside) > _HALF_TURN_DEG:
+            raise FieldError("gaze_deg[0]", f"must be within {_HALF_TURN_DEG:g}", aside)
         if abs(up) > _STEEPEST_DEG:
             raise FieldError("gaze_deg[1]", f"must be within {_STEEPEST_DEG:g}", up)
         if not 1 <= len(self.elements) <= _MAX_ELEMENTS:

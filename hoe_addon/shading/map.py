@@ -15,6 +15,9 @@ from .part import ShaderPart, parameter
 from .source import ShaderSource, specialised
 from .surface import surface_part
 
+_MISSING = "vector(1.0, 0.0, 1.0)"
+"""What Cycles gives for an image whose file is gone; no gradient has exactly this value."""
+
 GRADIENT_SOCKET, RECORDED_SOCKET = "map_gradient", "map_recorded"
 
 
@@ -52,7 +55,8 @@ def map_part(source: MapSource) -> ShaderPart:
         parameters=f"{gradient} {recorded}",
         code=(
             f"gradient += {GRADIENT_SOCKET}; "
-            f"if ({RECORDED_SOCKET} < {RECORDED_SHARE}) recorded = 0;"
+            f"if ({RECORDED_SOCKET} < {RECORDED_SHARE} || {GRADIENT_SOCKET} == {_MISSING}) "
+            f"recorded = 0;"
         ),
     )
 

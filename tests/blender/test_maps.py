@@ -196,3 +196,79 @@ def test_stopped_work_leaves_the_material_as_it_was(material_of, behind):
     with pytest.raises(CancelledError):
         material_of(moved, progress=stop)
     assert [material] == [item for item in bpy.data.materials if item.name.startswith("lens")]
+
+
+class TestLostFile:
+    """An image that is not packed, and whose file is gone."""
+
+    @pytest.fixture
+    def seen(self, clean_scene: Any) -> Any:
+        """Directions of rays that come down through an element with a material."""
+        import bpy
+        import numpy as np
+
+        from hoe_addon.blender import meshes, nodes
+        from hoe_addon.blender.render import COMBINED, render_layers
+        from hoe_addon.blender.render_settings import set_up
+        from hoe_addon.shading.probe import direction_world_shader
+
+        set_up(clean_scene, samples=1, seed=0, spectral=False, max_bounces=8)
+        clean_scene.render.resolution_x = clean_scene.render.resolution_y = 8
+        camera = bpy.data.cameras.new("Camera")
+        camera.type, camera.ortho_scale = "ORTHO", 2.0
+        clean_scene.camera = bpy.data.objects.new("Camera", camera)
+        clean_scene.camera.location = (0.0, 0.0, 30.0)
+        clean_scene.collection.objects.link(clean_scene.camera)
+        clean_scene.world = bpy.data.worlds.new("World")
+        tree = nodes.new_tree(clean_scene.world)
+        output = tree.nodes.new("ShaderNodeOutputWorld")
+        node = nodes.add_script_node(tree, direction_world_shader(), {})
+        tree.links.new(nodes.output_socket(node, "result"), output.inputs["Surface"])
+        clean_scene.world.cycles.sampling_method = "NONE"
+        plate = meshes.add(clean_scene.collection, meshes.rectangle("Plate", 6.0, 6.0))
+
+        def directions(material: Any) -> Any:
+            plate.data.materials.clear()
+            plate.data.materials.append(material)
+            picture = render_layers(clean_scene, (COMBINED,))[COMBINED].reshape(-1, 3)
+            return picture / np.linalg.norm(picture, axis=1, keepdims=True)
+
+        return directions
+
+    @pytest.fixture
+    def one_order(self, behind: dict[str, Any]) -> dict[str, Any]:
+        efficiency = {"model": "constant", "table": {"T": {"1": 1.0}}}
+        return behind | {"efficiency": efficiency, "orders": [1]}
+
+    @pytest.mark.render
+    def test_without_the_add_on_light_goes_straight_on(self, material_of, one_order, seen, folder):
+        import bpy
+
+        material = material_of(one_order, pack=False)
+        before = seen(material)
+        assert abs(before[:, :2]).max() > 1e-3  # diffracted
+        for file in folder.iterdir():
+            file.unlink()
+        bpy.data.images[0].reload()
+        after = seen(material)
+        # Through glass and air order 0 is refracted, and does not turn at normal incidence.
+        assert abs(after - (0.0, 0.0, -1.0)).max() < 1e-6
+
+    @pytest.mark.render
+    def test_with_the_add_on_the_map_is_made_anew(self, material_of, one_order, seen, folder):
+        import bpy
+        import numpy as np
+
+        import hoe_addon
+
+        hoe_addon.register()
+        try:
+            material = material_of(one_order, pack=False)
+            before = seen(material)
+            for file in folder.iterdir():
+                file.unlink()
+            bpy.data.images[0].reload()
+            np.testing.assert_array_equal(seen(material), before)
+            assert len(list(folder.iterdir())) == 1
+        finally:
+            hoe_addon.unregister()

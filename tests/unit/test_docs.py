@@ -5,6 +5,8 @@
 import copy
 import json
 import re
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -65,3 +67,13 @@ def test_every_kind_is_documented() -> None:
     page = (ROOT / "docs" / "holograms.md").read_text(encoding="utf-8")
     for kind in FILES_NEEDED:
         assert f'{{"kind": "{kind}"' in page
+
+
+def test_python_of_the_holograms_page_runs() -> None:
+    page = (ROOT / "docs" / "holograms.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"^```python\n(.*?)^```", page, re.M | re.S)
+    code += "\nassert material.hologram.problem == ''\n"
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr

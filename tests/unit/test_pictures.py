@@ -142,6 +142,6 @@ def test_what_lies_outside_is_left_out() -> None:
 
 def test_chart_without_a_field_has_no_angles() -> None:
     labelled, plain = built_in("chart", 640, 360), built_in("chart", 640, 360, None)
-    changed = np.argwhere((labelled != plain).any(axis=2))
-    assert len(changed)
-    assert (labelled >= plain - 1e-6).all()
+    only_labelled = (labelled.max(axis=2) > 0.5) & (plain.max(axis=2) == 0.0)
+    assert np.count_nonzero(only_labelled) > 100
+    assert not ((plain.max(axis=2) > 0.5) & (labelled.max(axis=2) == 0.0)).any()

@@ -122,9 +122,11 @@ def read_followed(material: bpy.types.Material) -> dict[str, Followed]:
 
 
 def _followed(group: bpy.types.PropertyGroup, path: str) -> Followed:
-    if is_gone(group.target):
-        name = None if group.target is None else group.target.name
-        raise FieldError(f"{path}.target", "must be an object of the scene", name)
+    if group.target is None:
+        raise FieldError(f"{path}.target", "must be an object of the scene", None)
+    if group.target.matrix_world.determinant() < 0.0:
+        rule = "must not be mirrored; apply its scale, or that of its parents"
+        raise FieldError(f"{path}.target", rule, group.target.name)
     if group.kind == WaveKind.SYSTEM:
         raise FieldError(f"{path}.follows", "must be off for a source behind optics", True)
     try:
@@ -132,19 +134,6 @@ def _followed(group: bpy.types.PropertyGroup, path: str) -> Followed:
     except FieldError as error:
         raise error.inside(path) from error
     return Followed(group.target, lamp_like(wave))
-
-
-def is_gone(target: bpy.types.Object | None) -> bool:
-    """Tell whether a source object was deleted.
-
-    Args:
-        target: What the property holds. Blender keeps a deleted object while something points to
-            it, only in no collection.
-
-    Returns:
-        True if nothing can be followed.
-    """
-    return target is None or not target.users_collection
 
 
 def carrier_of(material: bpy.types.Material) -> bpy.types.Object | None:
@@ -223,8 +212,29 @@ def refresh(material: bpy.types.Material, wavelength: bpy.types.NodeTree | None 
         raise
     if wavelength is not None and not _takes_wavelength(material):
         use_wavelength(material, wavelength)
-    properties.problem = ""
+    properties.problem = out_of_scene(material)
     return changed
+
+
+def out_of_scene(material: bpy.types.Material) -> str:
+    """Say whether a source object was deleted, or never came along with its material.
+
+    Blender keeps a deleted object while something points to it, only in no collection. Its last
+    place goes on to count.
+
+    Args:
+        material: A hologram.
+
+    Returns:
+        What is wrong, or nothing.
+    """
+    recording = _properties(material).recording
+    for role in ROLES:
+        group = getattr(recording, role)
+        if group.follows and group.target is not None and not group.target.users_collection:
+            name = group.target.name
+            return f"recording.{role}.target: {name} is in no scene; its last place counts"
+    return ""
 
 
 def refresh_changed() -> None:

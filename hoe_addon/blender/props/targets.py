@@ -4,7 +4,8 @@
 
 Blender gives drivers whose object is gone the value 0, which would put the source into the origin
 without a word. So the places are remembered; when the object goes, the last one stays in the shader
-and the problem stands in the hologram's properties.
+and the problem stands in the hologram's properties. An object that was only taken out of the scene
+still has its place.
 """
 
 from collections.abc import Iterator
@@ -15,7 +16,7 @@ from bpy.app.handlers import persistent
 from ...core.errors import HoeError
 from ...shading.following import FRAME_SOCKETS, ROLES, frame_socket
 from ..ids import PatternKind
-from .sync import hologram_node, is_gone, read_followed
+from .sync import hologram_node, out_of_scene, read_followed
 
 _EVENTS = ("depsgraph_update_post", "frame_change_post", "load_post")
 
@@ -46,8 +47,11 @@ def _watch(*_arguments: object) -> None:
             continue
         sockets = [s for s in node.inputs if s.identifier in _names(role)]
         key = (material.session_uid, role)
-        if not is_gone(group.target):
+        if group.target is not None:
             _remembered[key] = {s.identifier: tuple(s.default_value) for s in sockets}
+            lost = out_of_scene(material)
+            if lost and material.hologram.problem != lost:
+                material.hologram.problem = lost
         elif key in _remembered:
             _keep(material, sockets, _remembered.pop(key))
 
