@@ -11,11 +11,13 @@ if TYPE_CHECKING:
     from ..model.rays import RayTable, TraceResult
 
 _DESCRIPTION = """\
-Send rays through one hologram at z = 0, its normal along +z. RAYS.csv has the columns x_mm, y_mm,
-z_mm, l, m, n, wavelength_nm, order, side (T or R); a ray with n > 0 comes from the back. Directions
-may have any length but zero. OUT.csv adds hit_x_mm, hit_y_mm, out_l, out_m, out_n, status (ok,
-evanescent, miss) and efficiency; what does not exist is nan. Any order may be asked for: the
-efficiency is the value of the model, the document's "orders" only limit what a picture traces.
+Send rays through one hologram, in its own frame: the origin lies on the surface and z along the
+normal there. RAYS.csv has the columns x_mm, y_mm, z_mm, l, m, n, wavelength_nm, order, side (T or
+R); a ray with n > 0 comes from the back. Directions may have any length but zero. OUT.csv adds
+hit_x_mm, hit_y_mm, out_l, out_m, out_n, status (ok, evanescent, miss, undefined) and efficiency;
+undefined is an order where nothing is recorded, which the cycles engine cannot tell from
+evanescent; what does not exist is nan. Any order may be asked for: the efficiency is the value of
+the model, the document's "orders" only limit what a picture traces.
 """
 
 

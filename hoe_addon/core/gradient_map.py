@@ -130,7 +130,14 @@ def bake(
     while True:
         samples = _Sampling(gradient, sag, size, texels)
         told = _share_of(texels, largest, progress)
-        made, mixed = _made(samples, told)
+        found = _made(samples, told)
+        if found is None and texels >= largest:
+            places = f"{texels} x {texels} places"
+            raise SpecError(f"recording: nothing is recorded at any of {places} of the element")
+        if found is None:
+            texels = max(2 * texels, min(_MIXED, largest))
+            continue
+        made, mixed = found
         if texels >= largest or (made.error <= tolerance and (texels >= _MIXED or not mixed)):
             if progress is not None:
                 progress(1.0)
@@ -166,14 +173,14 @@ class _Sampling:
         y = self.origin[1] + rows * self.pitch[1]
         points = np.stack((x, y, self.sag(x, y)), axis=-1)
         parts = [points[first : first + _CHUNK] for first in range(0, len(points), _CHUNK)]
-        done: list[FloatArray] = []
+        done: list[FloatArray] = [np.empty((0, 3))]
         # Numpy lets other threads run while it computes.
         with ThreadPoolExecutor(_THREADS) as pool:
             try:
                 for part in pool.map(self._gradient, parts):
                     done.append(part)
                     if progress is not None:
-                        progress(len(done) / len(parts))
+                        progress((len(done) - 1) / len(parts))
             except BaseException:
                 pool.shutdown(cancel_futures=True)
                 raise
@@ -184,14 +191,14 @@ class _Sampling:
         return np.where(on_element, self.gradient(points), np.nan)
 
 
-def _made(samples: _Sampling, progress: Progress | None) -> tuple[GradientMap, bool]:
-    """Return the map of one size, and whether a part of it is not recorded."""
+def _made(samples: _Sampling, progress: Progress | None) -> tuple[GradientMap, bool] | None:
+    """Return the map of one size, and whether a part of it is not recorded; None if all is not."""
     count = samples.nodes
     row, column = (index.ravel().astype(np.float64) for index in np.indices((count, count)))
     values = samples.at(row, column, progress).reshape(count, count, 3)
     recorded = np.isfinite(values).all(axis=-1)
     if not recorded.any():
-        raise SpecError("recording: nothing is recorded at any place of the element")
+        return None
     spline = Spline2D.through(filled(values, recorded), samples.origin, samples.pitch)
     unchecked = _with_mask(spline, recorded)
     checked, error = _checked(samples, unchecked, recorded)

@@ -5,6 +5,7 @@
 Only corners, faces and normals are taken; sizes are limited, and nothing in a file is run.
 """
 
+import stat
 from itertools import pairwise
 from pathlib import Path
 
@@ -45,6 +46,10 @@ def read_mesh(path: str | Path) -> RawMesh:
     if suffix not in (".stl", ".obj"):
         raise SpecError("must be an .stl or .obj file")
     try:
+        mode = Path(path).stat().st_mode
+        if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+            # Opening a pipe could wait for ever.
+            raise SpecError("cannot be read: not a regular file")
         with Path(path).open("rb") as file:
             data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:

@@ -8,6 +8,7 @@ Files may come from strangers: their size and depth are limited, and nothing in 
 import json
 import math
 import re
+import stat
 from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
@@ -72,6 +73,10 @@ def read_text(path: str | Path, max_bytes: int = MAX_BYTES) -> str:
         SpecError: If it cannot be read, is too large, or is not UTF-8.
     """
     try:
+        mode = Path(path).stat().st_mode
+        if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+            # Opening a pipe could wait for ever.
+            raise SpecError("cannot be read: not a regular file")
         with Path(path).open("rb") as file:
             data = file.read(max_bytes + 1)
     except (OSError, ValueError) as error:

@@ -21,12 +21,16 @@ from .part import ShaderPart, parameter
 from .polynomials import even_radial_part, polynomial_part, zernike_part
 
 
-def characteristic_part(spec: CharacteristicSpec, units_per_mm: float) -> ShaderPart:
+def characteristic_part(
+    spec: CharacteristicSpec, units_per_mm: float, reach_mm: float | None = None
+) -> ShaderPart:
     """The shader's part for a characteristic function.
 
     Args:
         spec: The function.
         units_per_mm: Scene units in one mm.
+        reach_mm: How far the element reaches from its centre; where it is known, powers of the
+            radius are scaled to it, so that float32 holds them whatever the normalization.
 
     Returns:
         Its part; one that asks for a map where V stands on a grid.
@@ -37,9 +41,9 @@ def characteristic_part(spec: CharacteristicSpec, units_per_mm: float) -> Shader
         case RadialSpec():
             return _radial(spec)
         case EvenRadialSpec():
-            return even_radial_part(spec, units_per_mm)
+            return even_radial_part(spec, units_per_mm, reach_mm)
         case PolynomialSpec():
-            return polynomial_part(spec, units_per_mm)
+            return polynomial_part(spec, units_per_mm, reach_mm)
         case ZernikeSpec():
             return zernike_part(spec, units_per_mm)
         case FormulaSpec():

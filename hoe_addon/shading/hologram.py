@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The hologram shader of a document: what is compiled in, and what its sockets get."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -104,7 +105,8 @@ def hologram_sockets(
         "frame_x": frame.x,
         "frame_y": frame.y,
     }
-    values |= pattern_part(spec.pattern, units_per_mm, followed).sockets
+    reach_mm = math.hypot(*spec.surface.size_mm) / 2.0
+    values |= pattern_part(spec.pattern, units_per_mm, followed, reach_mm).sockets
     values |= surface_part(spec.surface, units_per_mm).sockets
     values |= medium_sockets("back", spec.media.back)
     values |= medium_sockets("front", spec.media.front)

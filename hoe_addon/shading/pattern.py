@@ -21,7 +21,10 @@ type Followed = Mapping[str, WaveSpec]
 
 
 def pattern_part(
-    pattern: PatternSpec, units_per_mm: float, followed: Followed | None = None
+    pattern: PatternSpec,
+    units_per_mm: float,
+    followed: Followed | None = None,
+    reach_mm: float | None = None,
 ) -> ShaderPart:
     """The shader's part for what is recorded.
 
@@ -29,6 +32,7 @@ def pattern_part(
         pattern: The recording or the characteristic function.
         units_per_mm: Scene units in one mm.
         followed: Waves of the recording that follow an object.
+        reach_mm: How far the element reaches from its centre, for the numbers of polynomials.
 
     Returns:
         Its part; its sockets hold the wavelength that V is stated for, too.
@@ -42,7 +46,7 @@ def pattern_part(
                 _wave("reference", "-", pattern.reference, units_per_mm, followed or {}),
             )
         )
-    return joined((stated, characteristic_part(pattern, units_per_mm)))
+    return joined((stated, characteristic_part(pattern, units_per_mm, reach_mm)))
 
 
 def _wave(

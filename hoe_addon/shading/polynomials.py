@@ -24,17 +24,23 @@ _INVERSE = parameter(
 )
 
 
-def even_radial_part(spec: EvenRadialSpec, units_per_mm: float) -> ShaderPart:
+def even_radial_part(
+    spec: EvenRadialSpec, units_per_mm: float, reach_mm: float | None = None
+) -> ShaderPart:
     """The shader's part for an even polynomial of the radius.
 
     Args:
         spec: The polynomial.
         units_per_mm: Scene units in one mm.
+        reach_mm: Length that the powers are scaled to, unless it is the normalization.
 
     Returns:
         Its part; the text depends on the number of coefficients only.
     """
-    factors = even_radial_from(spec).slope_factors
+    length_mm = reach_mm or spec.normalization_mm
+    grows = length_mm / spec.normalization_mm
+    slopes = even_radial_from(spec).slope_factors
+    factors = [slope * grows ** (2 * place + 1) for place, slope in enumerate(slopes)]
     names = {place: f"radial_{2 * place}" for place in range(1, len(factors) + 1)}
     sums = _nested({place - 1: name for place, name in names.items()}, "square")
     return ShaderPart(
@@ -44,22 +50,27 @@ def even_radial_part(spec: EvenRadialSpec, units_per_mm: float) -> ShaderPart:
             f"float factor = {sums}; gradient = factor * vector(across, up, 0.0); }}"
         ),
         sockets={
-            "inverse_normalization": 1.0 / (spec.normalization_mm * units_per_mm),
+            "inverse_normalization": 1.0 / (length_mm * units_per_mm),
             **{name: factors[place - 1] for place, name in names.items()},
         },
     )
 
 
-def polynomial_part(spec: PolynomialSpec, units_per_mm: float) -> ShaderPart:
+def polynomial_part(
+    spec: PolynomialSpec, units_per_mm: float, reach_mm: float | None = None
+) -> ShaderPart:
     """The shader's part for a polynomial of x and y.
 
     Args:
         spec: The polynomial.
         units_per_mm: Scene units in one mm.
+        reach_mm: Length that the powers are scaled to, unless it is the normalization.
 
     Returns:
         Its part; the text depends on the powers only.
     """
+    length_mm = reach_mm or spec.normalization_mm
+    grows = length_mm / spec.normalization_mm
     scale = metres_per_unit(spec.unit, spec.wavelength_nm) / (spec.normalization_mm * 1e-3)
     terms = sorted(spec.terms, key=lambda term: (term.x, term.y))
     names = {(term.x, term.y): f"term_{term.x}_{term.y}" for term in terms}
@@ -72,8 +83,11 @@ def polynomial_part(spec: PolynomialSpec, units_per_mm: float) -> ShaderPart:
             f"{_nested_twice(along_y)}, 0.0); }}"
         ),
         sockets={
-            "inverse_normalization": 1.0 / (spec.normalization_mm * units_per_mm),
-            **{names[term.x, term.y]: scale * term.coefficient for term in terms},
+            "inverse_normalization": 1.0 / (length_mm * units_per_mm),
+            **{
+                names[term.x, term.y]: scale * term.coefficient * grows ** (term.x + term.y - 1)
+                for term in terms
+            },
         },
     )
 

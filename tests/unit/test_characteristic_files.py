@@ -111,7 +111,7 @@ MISTAKES: dict[str, tuple[Any, str]] = {
     "complex": (lambda at: write(at / "v.npy", np.zeros((4, 4), complex)), "must hold real num"),
     "nan": (
         lambda at: write(at / "v.npy", with_nan()),
-        "must hold finite numbers, not nan in row 4, column 6",
+        "must hold finite numbers up to 1e+12, not nan in row 4, column 6",
     ),
     "nan exr": (lambda at: write(at / "v.exr", with_nan()), "not nan in row 4, column 6"),
     "nan csv": (lambda at: write(at / "v.csv", with_nan()), "not nan in row 4, column 6"),

@@ -4,6 +4,7 @@
 
 import json
 import math
+from pathlib import Path
 from typing import Any
 
 import jsonschema
@@ -18,6 +19,8 @@ from hoe_addon.model.evaluate import trace
 from hoe_addon.model.field_error import FieldError
 from hoe_addon.model.rays import RayTable
 from hoe_addon.model.schema import SCHEMA_DIR
+
+LENS = Path(__file__).parents[1] / "documents" / "lens.json"
 
 GRID = [[float(i * i - j) for i in range(5)] for j in range(6)]
 
@@ -263,3 +266,41 @@ def test_only_the_outline_counts() -> None:
         hologram_from(whole)
     whole["surface"]["outline"] = "ellipse"
     hologram_from(whole)
+
+
+@pytest.mark.parametrize(
+    "formula",
+    [
+        "0.02*sqrt(abs(x-0.337))",
+        "pow(abs(x-.337),.9)",
+        "abs(x-.1)^0.5",
+        "sqrt((x-0.3)^2+(y-.2)^2-1e-6)",
+    ],
+)
+def test_steep_places_between_those_looked_at_are_found(formula: str) -> None:
+    """A gradient without bound on a line, or a small hole without a value."""
+    document = json.loads(LENS.read_text(encoding="utf-8"))
+    del document["recording"]
+    document["surface"]["size_mm"] = [20, 20]
+    kind = {"kind": "formula", "wavelength_nm": 532, "unit": "mm", "formula": formula}
+    with pytest.raises(SpecError, match=r"characteristic\.formula: must have a value and a bound"):
+        hologram_from(document | {"characteristic": kind})
+
+
+@pytest.mark.parametrize(
+    "kind",
+    [
+        {"kind": "even_radial", "normalization_mm": 1e-6, "coefficients": [1, 1, 1, 1, 1]},
+        {
+            "kind": "polynomial",
+            "normalization_mm": 1e-300,
+            "terms": [{"x": 3, "y": 0, "coefficient": 1}],
+        },
+    ],
+    ids=lambda kind: kind["kind"],
+)
+def test_gradients_beyond_all_use_are_refused(kind: dict[str, Any]) -> None:
+    document = json.loads(LENS.read_text(encoding="utf-8"))
+    del document["recording"]
+    with pytest.raises(SpecError, match="characteristic: must have a gradient of at most 1e"):
+        hologram_from(document | {"characteristic": {"wavelength_nm": 532, **kind}})

@@ -8,20 +8,24 @@ import re
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 
 from hoe_addon.model.characteristic import CHARACTERISTICS
-from hoe_addon.model.document import hologram_from
+from hoe_addon.model.document import device_from, hologram_from
+from hoe_addon.model.scene_parts import ElementSpec
 from hoe_addon.model.surface import SURFACES
 from hoe_addon.model.waves import WAVES
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = (ROOT / "README.md", ROOT / "docs" / "holograms.md")
+PAGES = (ROOT / "README.md", ROOT / "docs" / "holograms.md", ROOT / "docs" / "scenes.md")
 LENS = json.loads((ROOT / "tests" / "documents" / "lens.json").read_text(encoding="utf-8"))
 FILES_NEEDED = {"sampled"}
 """Kinds that name a file, which a page does not have."""
+
+
+ELEMENTS = get_args(ElementSpec.__value__)
 
 
 def tags(*structs: Any) -> set[str]:
@@ -36,6 +40,16 @@ def blocks() -> list[Any]:
             name = part.get("kind") or part.get("shape") or part["name"]
             found.append(pytest.param(part, id=f"{page.stem}-{len(found)}-{name}"))
     return found
+
+
+def whole_scene(part: dict[str, Any]) -> dict[str, Any]:
+    """A scene that holds this element, or the scene itself."""
+    if part["kind"] == "scene":
+        return part
+    preset = json.loads((ROOT / "presets" / "point_lens.json").read_text(encoding="utf-8"))
+    preset["elements"].append(part)
+    preset["elements"][:-1] = [e for e in preset["elements"][:-1] if e["name"] != part["name"]]
+    return preset
 
 
 def whole(part: dict[str, Any]) -> dict[str, Any]:
@@ -55,7 +69,10 @@ def whole(part: dict[str, Any]) -> dict[str, Any]:
 
 @pytest.mark.parametrize("part", blocks())
 def test_block_is_valid(part: dict[str, Any]) -> None:
-    hologram_from(whole(part))
+    if part.get("kind") in ("scene", *tags(*ELEMENTS)):
+        device_from(whole_scene(part))
+    else:
+        hologram_from(whole(part))
 
 
 def test_every_kind_is_documented() -> None:
@@ -64,6 +81,10 @@ def test_every_kind_is_documented() -> None:
     assert tags(*WAVES, *CHARACTERISTICS) - FILES_NEEDED <= kinds
     shapes = [part.get("shape") for part in shown]
     assert all(shape in shapes for shape in tags(*SURFACES))
+    elements = {
+        e["kind"] for part in shown for e in (part, *part.get("elements", ())) if "kind" in e
+    }
+    assert tags(*ELEMENTS) <= elements
     page = (ROOT / "docs" / "holograms.md").read_text(encoding="utf-8")
     for kind in FILES_NEEDED:
         assert f'{{"kind": "{kind}"' in page

@@ -138,3 +138,18 @@ def test_distance_counts_steps():
     distance = distance_from(places, 3)
     assert distance[2].tolist() == [1, 0, 1, 2, 3, 3]
     assert distance[0, 3] == 2
+
+
+@pytest.mark.parametrize("radius", [0.1e-3, 0.4e-3], ids=["no node of the coarse grid", "one"])
+def test_small_recorded_spot_is_found(radius: float) -> None:
+    """Of a 40 mm element; the first grid of 30 x 30 nodes has next to none in it."""
+
+    def gradient(points: np.ndarray) -> np.ndarray:
+        inside = np.hypot(points[..., 0], points[..., 1] - 1e-3) < radius
+        return np.where(inside[..., None], (0.1, 0.2, 0.0), np.nan)
+
+    made = bake(gradient, lambda x, y: np.zeros_like(x), (0.04, 0.04))
+    value = made.gradient((0.0, 1e-3, 0.0))
+    if radius > 0.2e-3:  # else the border takes all of it
+        np.testing.assert_allclose(value, (0.1, 0.2, 0.0), atol=1e-6)
+    assert np.isnan(made.gradient((5e-3, 5e-3, 0.0))).all()

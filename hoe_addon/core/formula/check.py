@@ -86,6 +86,7 @@ def find_trouble(
     return (
         _zero_divisor(formula, x, y, inside)
         or _first(x, y, inside(x, y) & ~np.isfinite(formula.at(x, y)), "it has no finite value")
+        or _steep_place(formula, x, y, size, inside)
         or _unbounded(formula, x, y, size, inside)
     )
 
@@ -107,6 +108,40 @@ def _divisors(formula: Formula) -> dict[int, Op]:
         if graph.nodes[place].op in _SINGULAR
     }
     return {place: op for place, op in found.items() if graph.constant(place) is None}
+
+
+def _steep_place(
+    formula: Formula, x: FloatArray, y: FloatArray, size: float, inside: Covers
+) -> Trouble | None:
+    """Follow the divisors of the gradient to their zeros, and see whether it is bounded there."""
+    graph = formula.graph
+    divisors = {
+        graph.nodes[place].args[-1]
+        for slope in formula.slopes
+        for place in graph.needed(slope)
+        if graph.nodes[place].op is Op.DIVIDE
+        or (graph.nodes[place].op is Op.POWER and graph.nodes[place].value < 0.0)
+    }
+    for place in divisors:
+        if graph.constant(place) is not None:
+            continue
+
+        def divisor(across: FloatArray, up: FloatArray, place: int = place) -> FloatArray:
+            (value,), finite = evaluate(graph, [place], across, up)
+            return np.where(finite & inside(across, up), value, np.nan)
+
+        values = divisor(x, y)
+        if not np.isfinite(values).any():
+            continue
+        crossing = _crossing(divisor, x, y, values, "")
+        least, _ = _smallest(divisor, x, y, values)
+        here = least if crossing is None else np.array((crossing.x, crossing.y))
+        here = here[:1], here[1:]
+        if not (formula.is_angular and np.hypot(*here)[0] == 0.0):
+            trouble = _growing(formula, *here, size)
+            if trouble is not None:
+                return trouble
+    return None
 
 
 def _zero_divisor(formula: Formula, x: FloatArray, y: FloatArray, inside: Covers) -> Trouble | None:
@@ -155,27 +190,38 @@ def _crossing(
 def _least(
     divisor: _Function, x: FloatArray, y: FloatArray, values: FloatArray, what: str
 ) -> Trouble | None:
-    """Look for a zero near the smallest divisor of the grid, closer and closer."""
-    low, high = np.array((x.min(), y.min())), np.array((x.max(), y.max()))
-    steps = np.linspace(-1.0, 1.0, 17)
-    best = np.nanargmin(np.abs(values))
-    row, column = divmod(int(best), values.shape[1])
+    """Look for a zero near the smallest divisor of the grid."""
+    row, column = divmod(int(np.nanargmin(np.abs(values))), values.shape[1])
     around = np.abs(values[max(row - 1, 0) : row + 2, max(column - 1, 0) : column + 2])
     if np.nanmax(around) < 2.0 * np.nanmin(around):
         return None  # It changes too slowly to reach zero within a step.
+    here, step = _smallest(divisor, x, y, values)
+    return _first(here[:1], here[1:], np.abs(divisor(here[:1], here[1:])) <= _ZERO * step, what)
+
+
+def _smallest(
+    divisor: _Function, x: FloatArray, y: FloatArray, values: FloatArray
+) -> tuple[FloatArray, float]:
+    """Follow the smallest divisor of the grid closer and closer.
+
+    Returns its place, and the size of the divisor one step of the grid away.
+    """
+    low, high = np.array((x.min(), y.min())), np.array((x.max(), y.max()))
+    steps = np.linspace(-1.0, 1.0, 17)
+    best = np.nanargmin(np.abs(values))
     here: FloatArray = np.array((x.ravel()[best], y.ravel()[best]))
     reach = (high - low) / (_NODES - 1)
-    small = 0.0
+    step = 0.0
     for zoom in range(_ZOOMS):
         window = np.clip(here[:, None] + reach[:, None] * steps, low[:, None], high[:, None])
         across, up = np.broadcast_arrays(window[0], window[1][:, None])
         size = np.abs(divisor(across, up))
         if zoom == 0:
-            small = _ZERO * float(np.nanmax(size))
+            step = float(np.nanmax(size))
         best = np.argmin(np.where(np.isfinite(size), size, np.inf))
         here = np.array((across.ravel()[best], up.ravel()[best]))
         reach = reach / 4.0
-    return _first(here[:1], here[1:], np.abs(divisor(here[:1], here[1:])) <= small, what)
+    return here, step
 
 
 def _unbounded(
@@ -184,7 +230,11 @@ def _unbounded(
     missing = inside(x, y) & ~np.isfinite(formula.gradient(x, y)).all(axis=-1)
     if formula.is_angular:
         missing &= np.hypot(x, y) > 0.0
-    across, up = x[missing], y[missing]
+    return _growing(formula, x[missing], y[missing], size)
+
+
+def _growing(formula: Formula, across: FloatArray, up: FloatArray, size: float) -> Trouble | None:
+    """Return the first place around which the gradient grows without bound."""
     far, near = (_largest_around(formula, across, up, distance * size) for distance in _NEAR)
     with np.errstate(invalid="ignore"):
         bounded = np.isfinite(far) & (near <= _GROWTH * far)

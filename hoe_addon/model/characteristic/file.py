@@ -13,6 +13,7 @@ from ...core.errors import SpecError
 from ..reading import read_text
 
 FEWEST, MOST = 4, 8192
+LARGEST = 1e12
 """Values along each side."""
 
 MAX_CSV_BYTES = 256 * 2**20
@@ -70,10 +71,11 @@ def _read(file: str, _time: int, _size: int) -> FloatArray:
         case _:
             values = _read_exr(path)
     _check_size(*values.shape)
-    bad = ~np.isfinite(values)
+    # A comparison with NaN is false.
+    bad = ~(np.abs(values) <= LARGEST)
     if bad.any():
         row, column = np.argwhere(bad)[0].tolist()
-        rule = f"must hold finite numbers, not {values[row, column]}"
+        rule = f"must hold finite numbers up to {LARGEST:g}, not {values[row, column]}"
         raise SpecError(f"{rule} in row {row + 1}, column {column + 1}")
     values.flags.writeable = False
     return values
@@ -90,7 +92,7 @@ def _read_npy(path: Path) -> FloatArray:
     try:
         # Mapped, so that the size is known before anything is read; objects cannot be mapped.
         mapped = np.lib.format.open_memmap(path, mode="r")
-    except (OSError, ValueError, EOFError) as error:
+    except (OSError, ValueError, EOFError, OverflowError) as error:
         raise SpecError(f"is no readable .npy file ({_reason(error)})") from error
     if mapped.dtype.kind not in "fiu":
         raise SpecError(f"must hold real numbers, not {mapped.dtype}")
