@@ -182,3 +182,24 @@ def test_sockets_hold_the_numbers_of_the_document() -> None:
     shares = hologram_sockets(spec_with(efficiency=CONSTANT, orders=[0, 1]), frame)
     assert shares["efficiency_t_p0"] == 0.6
     assert shares["efficiency_r_p1"] == 0.05
+
+
+@pytest.mark.parametrize("normalization_mm", [1e-3, 1e-2, 20.0, 30.0])
+def test_powers_of_the_radius_fit_float32_whatever_the_normalization(
+    normalization_mm: float,
+) -> None:
+    """They are scaled to the element's reach, so the same V gives the same sockets."""
+
+    def sockets(length_mm: float) -> dict[str, Any]:
+        grows = length_mm / 20.0
+        coefficients = [5000 * grows**2, 0, 0, 0, 0, 0, 0, 20000 * grows**16]
+        kind = {"kind": "even_radial", "wavelength_nm": 532, "coefficients": coefficients}
+        document = json.loads(LENS.read_text(encoding="utf-8"))
+        del document["recording"]
+        document["characteristic"] = kind | {"normalization_mm": length_mm}
+        return hologram_sockets(hologram_from(document), Frame())
+
+    found, expected = sockets(normalization_mm), sockets(20.0)
+    for name in ("inverse_normalization", "radial_2", "radial_16"):
+        assert found[name] == pytest.approx(expected[name], rel=1e-9)
+        assert 1e-30 < abs(np.float32(found[name])) < 1e30
