@@ -32,6 +32,10 @@ _ZOOMS = 24
 _NEAR = (1e-5, 1e-8)
 """Distances around a place without a gradient, relative to the element, where it is looked at."""
 
+_NEARER = (1e-8, 1e-11)
+"""The same at a zero that was followed as far as digits go: one just beside the element, where the
+gradient is steep and bounded, must not count."""
+
 _GROWTH = 1.5
 """A gradient that grows by more than this between the two distances is not bounded. A kink's
 stays as it is; that of ``r^0.9`` doubles."""
@@ -138,7 +142,7 @@ def _steep_place(
         here = least if crossing is None else np.array((crossing.x, crossing.y))
         here = here[:1], here[1:]
         if not (formula.is_angular and np.hypot(*here)[0] == 0.0):
-            trouble = _growing(formula, *here, size)
+            trouble = _growing(formula, *here, size, _NEARER)
             if trouble is not None:
                 return trouble
     return None
@@ -230,12 +234,18 @@ def _unbounded(
     missing = inside(x, y) & ~np.isfinite(formula.gradient(x, y)).all(axis=-1)
     if formula.is_angular:
         missing &= np.hypot(x, y) > 0.0
-    return _growing(formula, x[missing], y[missing], size)
+    return _growing(formula, x[missing], y[missing], size, _NEAR)
 
 
-def _growing(formula: Formula, across: FloatArray, up: FloatArray, size: float) -> Trouble | None:
+def _growing(
+    formula: Formula,
+    across: FloatArray,
+    up: FloatArray,
+    size: float,
+    distances: tuple[float, float],
+) -> Trouble | None:
     """Return the first place around which the gradient grows without bound."""
-    far, near = (_largest_around(formula, across, up, distance * size) for distance in _NEAR)
+    far, near = (_largest_around(formula, across, up, distance * size) for distance in distances)
     with np.errstate(invalid="ignore"):
         bounded = np.isfinite(far) & (near <= _GROWTH * far)
     return _first(across, up, ~bounded, "its gradient has no finite value")
