@@ -36,6 +36,9 @@ _NEARER = (1e-8, 1e-11)
 """The same at a zero that was followed as far as digits go: one just beside the element, where the
 gradient is steep and bounded, must not count."""
 
+_ROOT = 1.1
+"""A root, up to the tenth, of what has a zero between two places differs by more between them."""
+
 _GROWTH = 1.5
 """A gradient that grows by more than this between the two distances is not bounded. A kink's
 stays as it is; that of ``r^0.9`` doubles."""
@@ -126,7 +129,8 @@ def _steep_place(
         if graph.nodes[place].op is Op.DIVIDE
         or (graph.nodes[place].op is Op.POWER and graph.nodes[place].value < 0.0)
     }
-    for place in divisors:
+    # Those of the value itself have been followed already.
+    for place in divisors - set(_divisors(formula)):
         if graph.constant(place) is not None:
             continue
 
@@ -135,7 +139,8 @@ def _steep_place(
             return np.where(finite & inside(across, up), value, np.nan)
 
         values = divisor(x, y)
-        if not np.isfinite(values).any():
+        # A root changes by a tenth at least from one place to the next, with a zero between.
+        if not np.isfinite(values).any() or _variation(values) < _ROOT:
             continue
         crossing = _crossing(divisor, x, y, values, "")
         least, _ = _smallest(divisor, x, y, values)
@@ -195,12 +200,18 @@ def _least(
     divisor: _Function, x: FloatArray, y: FloatArray, values: FloatArray, what: str
 ) -> Trouble | None:
     """Look for a zero near the smallest divisor of the grid."""
-    row, column = divmod(int(np.nanargmin(np.abs(values))), values.shape[1])
-    around = np.abs(values[max(row - 1, 0) : row + 2, max(column - 1, 0) : column + 2])
-    if np.nanmax(around) < 2.0 * np.nanmin(around):
+    if _variation(values) < 2.0:
         return None  # It changes too slowly to reach zero within a step.
     here, step = _smallest(divisor, x, y, values)
     return _first(here[:1], here[1:], np.abs(divisor(here[:1], here[1:])) <= _ZERO * step, what)
+
+
+def _variation(values: FloatArray) -> float:
+    """Return how many times its smallest size a divisor reaches one step of the grid away."""
+    row, column = divmod(int(np.nanargmin(np.abs(values))), values.shape[1])
+    around = np.abs(values[max(row - 1, 0) : row + 2, max(column - 1, 0) : column + 2])
+    least = float(np.nanmin(around))
+    return float(np.nanmax(around)) / least if least > 0.0 else np.inf
 
 
 def _smallest(
