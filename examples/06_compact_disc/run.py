@@ -6,24 +6,16 @@ Claim: on the line of the disc that lies under lamp and eye, light of one wavele
 radius where the directions to lamp and eye, projected on the disc, add up to wavelength / pitch.
 """
 
-import argparse
-import json
 import math
 import sys
 from pathlib import Path
 
-import bpy
-
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1]))
 
-from hoe_addon.blender.api import build_device, load_device  # noqa: E402
-from hoe_addon.blender.quiet import forget_removed_engines  # noqa: E402
-from hoe_addon.blender.scene_measure import seen_direction  # noqa: E402
-from hoe_addon.cli.claims import compare, report  # noqa: E402
-from hoe_addon.files import writable_folder  # noqa: E402
-from hoe_addon.model.document import find_device  # noqa: E402
-from hoe_addon.model.scene_view import gaze_of  # noqa: E402
+from hoe_addon.cli.claims import Row, row  # noqa: E402
+from hoe_addon.cli.example import Example  # noqa: E402
+from hoe_addon.cli.example_scene import seen_angles_deg  # noqa: E402
 
 PRESET: str = "compact_disc"
 WAVELENGTHS_NM: tuple[float, ...] = (500.0, 550.0, 600.0)
@@ -36,7 +28,14 @@ FIELD_DEG: float = 1.5
 SIZE: tuple[int, int] = (80, 80)
 SAMPLES: int = 128
 TOLERANCE_MM: float = 0.3
-EXPECTED: Path = HERE / "expected.json"
+SOURCE: str = (
+    "grating equation for reflection, sin(in) + sin(out) = wavelength / 1.6 um, solved by "
+    "bisection for the places of lamp, disc and eye"
+)
+REASON: str = (
+    "0.3 mm: the image of the 4 mm lamp in a line 1 nm wide is 2 mm long on the disc, and its "
+    "centroid is found to a tenth of that"
+)
 
 
 def measure() -> dict[str, float]:
@@ -45,28 +44,20 @@ def measure() -> dict[str, float]:
     Returns:
         Radii in mm by name.
     """
-    forget_removed_engines()
     found: dict[str, float] = {}
     for wavelength in WAVELENGTHS_NM:
-        bpy.ops.wm.read_factory_settings(use_empty=True)
         line = f'{{"kind": "line", "centre_nm": {wavelength}, "fwhm_nm": 1}}'
-        spec = load_device(
-            PRESET,
-            [
-                "room.kind=none",
-                "elements.left_lamp.luminance_cd_m2=0",
-                "elements.right_lamp.luminance_cd_m2=0",
-                f"elements.middle_lamp.spectrum={line}",
-                "elements.middle_lamp.size_mm=[4, 4]",
-                "eye.pupil_diameter_mm=0.5",
-                f"eye.field_deg={FIELD_DEG}",
-                f"gaze_deg=[0, {round(elevation_deg(radius_mm(wavelength)), 1)}]",
-                f"render.size={list(SIZE)}",
-                f"render.samples={SAMPLES}",
-            ],
-        )
-        device = build_device(bpy.context.scene, spec, find_device(PRESET).parent)
-        up = math.radians(gaze_of(seen_direction(device))[1])
+        changes = [
+            "elements.left_lamp.luminance_cd_m2=0",
+            "elements.right_lamp.luminance_cd_m2=0",
+            f"elements.middle_lamp.spectrum={line}",
+            "elements.middle_lamp.size_mm=[4, 4]",
+            f"eye.field_deg={FIELD_DEG}",
+            f"gaze_deg=[0, {round(elevation_deg(radius_mm(wavelength)), 1)}]",
+            f"render.size={list(SIZE)}",
+            f"render.samples={SAMPLES}",
+        ]
+        up = math.radians(seen_angles_deg(PRESET, changes)[1])
         away = (EYE_MM[0] - DISC_MM[0]) / math.tan(-up)
         found[f"radius at {wavelength:g} nm"] = away - (EYE_MM[1] - DISC_MM[1])
     return found
@@ -105,60 +96,15 @@ def elevation_deg(radius: float) -> float:
     return math.degrees(math.atan2(DISC_MM[0] - EYE_MM[0], away))
 
 
-def expected_numbers() -> list[dict[str, object]]:
-    """The grating equation.
-
-    Returns:
-        Numbers as expected.json holds them.
-    """
+def expected_numbers() -> list[Row]:
+    """The grating equation."""
     return [
-        {
-            "name": f"radius at {wavelength:g} nm",
-            "unit": "mm",
-            "value": round(radius_mm(wavelength), 3),
-            "allowed": TOLERANCE_MM,
-        }
-        for wavelength in WAVELENGTHS_NM
+        row(f"radius at {nm:g} nm", "mm", round(radius_mm(nm), 3), TOLERANCE_MM)
+        for nm in WAVELENGTHS_NM
     ]
 
 
-def main(output: Path) -> int:
-    """Measure and compare.
-
-    Args:
-        output: Folder for numbers.json.
-
-    Returns:
-        0 if every number is as expected, else 1.
-    """
-    folder = writable_folder(output)
-    expected = json.loads(EXPECTED.read_text(encoding="utf-8"))
-    return report(compare(expected, measure()), folder / "numbers.json")
-
-
-def renew() -> int:
-    """Write expected.json by formulas that share nothing with the add-on."""
-    document = {
-        "provenance": {
-            "source": "grating equation for reflection, sin(in) + sin(out) = wavelength / 1.6 "
-            "um, solved by bisection for the places of lamp, disc and eye",
-            "generated_by": "python examples/06_compact_disc/run.py --renew",
-            "device": PRESET,
-        },
-        "tolerance": {
-            "reason": "0.3 mm: the image of the 4 mm lamp in a line 1 nm wide is 2 mm long on "
-            "the disc, and its centroid is found to a tenth of that"
-        },
-        "numbers": expected_numbers(),
-    }
-    EXPECTED.write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
-    print(f"{EXPECTED}: written")
-    return 0
-
+EXAMPLE = Example(HERE, PRESET, SOURCE, REASON, measure, expected_numbers)
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=Path("out/06_compact_disc"))
-    parser.add_argument("--renew", action="store_true", help="write expected.json anew")
-    arguments = parser.parse_args()
-    sys.exit(renew() if arguments.renew else main(arguments.out))
+    sys.exit(EXAMPLE.run(__doc__))

@@ -10,6 +10,9 @@ from typing import Any
 
 from ..files import write_text
 
+type Row = dict[str, Any]
+"""One number of expected.json: name, unit, value, allowed."""
+
 
 @dataclass(frozen=True)
 class Claim:
@@ -33,6 +36,21 @@ class Claim:
     def holds(self) -> bool:
         """Whether the number is as expected; NaN never is."""
         return abs(self.found - self.expected) <= self.allowed
+
+
+def row(name: str, unit: str, value: float, allowed: float) -> Row:
+    """Write down one number for expected.json.
+
+    Args:
+        name: What it is.
+        unit: Its unit.
+        value: What it should be.
+        allowed: How far the number found may be from it.
+
+    Returns:
+        The number as `compare` takes it.
+    """
+    return {"name": name, "unit": unit, "value": value, "allowed": allowed}
 
 
 def compare(expected: Mapping[str, Any], found: Mapping[str, float]) -> list[Claim]:

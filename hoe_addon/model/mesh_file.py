@@ -17,7 +17,7 @@ from ..core.errors import SpecError
 MAX_BYTES = 64 * 2**20
 MAX_TRIANGLES = 500_000
 FARTHEST_MM = 1e6
-"""Largest coordinate of a mesh: a kilometre."""
+"""Largest coordinate of a mesh, and largest size of any surface: a kilometre."""
 
 _MOST_CORNERS = 64
 """Corners of one polygon of an OBJ file."""
@@ -82,12 +82,14 @@ def _text(data: bytes) -> str:
 
 
 def _stl(data: bytes) -> RawMesh:
-    count = int.from_bytes(data[80:_STL_HEAD], "little") if len(data) >= _STL_HEAD else -1
+    count = int.from_bytes(data[80:_STL_HEAD], "little")
     if len(data) == _STL_HEAD + count * _STL_RECORD.itemsize:
         records = np.frombuffer(data, _STL_RECORD, count, _STL_HEAD)
         corners = records["corners"].astype(np.float64).reshape(-1, 3)
     elif data.lstrip()[:5].lower() == b"solid":
         corners = _stl_text(_text(data))
+    elif len(data) < _STL_HEAD:
+        raise SpecError("must be a whole STL file, but ends within its header")
     else:
         raise SpecError(f"must be a whole STL file; its header says {count} triangles")
     # -0.0 and 0.0 are one place.

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from ..core.arrays import BoolArray, FloatArray, IntArray, as_float, dot, unit
 from ..core.errors import SpecError
 from ..core.shapes import MeshShape
-from ..core.shapes.mesh import check_triangles, smooth_normals
+from ..core.shapes.mesh import MeshError, check_triangles, smooth_normals
 from ..core.units import m_to_mm, mm_to_m
 from . import field_kinds
 from .field_error import FieldError
@@ -81,8 +81,9 @@ class MeshSurface(Struct, frozen=True, forbid_unknown_fields=True, tag_field="sh
                 raise FieldError(other, "must not be given beside file", path)
         try:
             self.core_shape()
-        except FieldError:
-            raise
+        except MeshError as error:
+            rule = f"{error.place} {error.rule}, not {error.value}"
+            raise FieldError("file", rule, path) from error
         except SpecError as error:
             raise FieldError("file", str(error), path) from error
 
@@ -102,11 +103,9 @@ class MeshSurface(Struct, frozen=True, forbid_unknown_fields=True, tag_field="sh
             raise FieldError("normals", rule, len(self.normals))
         try:
             self.core_shape()
-        except SpecError as error:
-            field, _, rule = str(error).partition(": ")
-            rule, _, value = rule.partition(", got ")
-            field = field.replace("vertices", "vertices_mm")
-            raise FieldError(field, rule, value) from error
+        except MeshError as error:
+            field = error.place.replace("vertices", "vertices_mm")
+            raise FieldError(field, error.rule, error.value) from error
 
 
 def _rows(
@@ -172,19 +171,21 @@ def made_mesh(vertices_mm: FloatArray, faces: IntArray, normals: ArrayLike | Non
         The mesh in metres, without corners that no face has.
 
     Raises:
-        SpecError: If the arrays make no mesh, or a normal points to the back of a face.
+        MeshError: If the arrays make no mesh, or a normal points to the back of a face.
     """
     check_triangles(vertices_mm, faces)
-    upright = smooth_normals(vertices_mm, faces) if normals is None else unit(normals)
+    given = smooth_normals(vertices_mm, faces) if normals is None else as_float(normals)
+    upright = unit(given)
     bad = ~np.isfinite(upright).all(axis=1)
     if bad.any():
-        raise SpecError(f"normals[{int(np.argmax(bad))}]: must have a length, got one without")
+        row = int(np.argmax(bad))
+        raise MeshError(f"normals[{row}]", "must have a length", given[row].tolist())
     corner = vertices_mm[faces]
     across = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     turned = np.min(dot(upright[faces], across[:, None, :]), axis=1) <= 0.0
     if turned.any():
         row = int(np.argmax(turned))
         rule = "must be seen from the side of its corners' normals (no fold sharper than that)"
-        raise SpecError(f"faces[{row}]: {rule}, got {faces[row].tolist()}")
+        raise MeshError(f"faces[{row}]", rule, faces[row].tolist())
     used, numbers = np.unique(faces, return_inverse=True)
     return MeshShape(mm_to_m(vertices_mm[used]), numbers.reshape(-1, 3), upright[used])

@@ -16,6 +16,7 @@ from ..core.shapes import Conic, Cylinder, EvenAsphere, Plane, Shape
 from ..core.units import mm_to_m
 from . import field_kinds, fields
 from .field_error import FieldError
+from .mesh_file import FARTHEST_MM
 from .mesh_surface import MeshSurface
 from .outline import ON_SURFACE_MM as ON_SURFACE_MM
 from .outline import OUTLINES, Outline, inside_outline, on_surface, reach_mm
@@ -233,7 +234,7 @@ SURFACES = (
 
 
 def _check_extent(surface: Struct) -> None:
-    fields.vector(surface, "size_mm", 2, above=0.0)
+    fields.vector(surface, "size_mm", 2, above=0.0, at_most=FARTHEST_MM)
     field_kinds.choice(surface, "outline", OUTLINES)
 
 

@@ -7,7 +7,6 @@ from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
-import _cycles
 import bpy
 import numpy as np
 import pytest
@@ -31,7 +30,7 @@ CHEAP = {"samples": 1, "seed": 0, "spectral": True, "max_bounces": 8}
 @pytest.fixture
 def without_osl(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cycles as it is where Blender was built without OSL."""
-    monkeypatch.setattr(_cycles, "with_osl", False)
+    monkeypatch.setattr("_cycles.with_osl", False)
 
 
 def preferences(monkeypatch: pytest.MonkeyPatch, kind: str) -> None:
@@ -142,7 +141,8 @@ def test_a_gpu_does_not_matter_while_the_scene_renders_on_the_cpu(
 ) -> None:
     clean_scene.cycles.device = "CPU"
     preferences(monkeypatch, "CUDA")
-    osl.require_osl(clean_scene)
+    set_up(clean_scene, **CHEAP)
+    assert clean_scene.cycles.shading_system
 
 
 @pytest.mark.parametrize("kind", ["OPTIX", "NONE"])
@@ -152,4 +152,5 @@ def test_devices_that_run_osl_are_taken(
     """NONE stands in the preferences where no GPU is chosen: Cycles then takes the CPU."""
     clean_scene.cycles.device = "GPU"
     preferences(monkeypatch, kind)
-    osl.require_osl(clean_scene)
+    set_up(clean_scene, **CHEAP)
+    assert clean_scene.cycles.shading_system

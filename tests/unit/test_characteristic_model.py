@@ -257,7 +257,8 @@ def test_specs_made_in_python_are_checked_too() -> None:
 
 def test_a_kink_is_no_mistake() -> None:
     for formula in ("r/2", "abs(x)", "max(x,y)", "3*phi"):
-        hologram_from(document("formula", formula=formula, unit="mm"))
+        spec = hologram_from(document("formula", formula=formula, unit="mm"))
+        assert to_document(spec)["characteristic"]["formula"] == formula
 
 
 def test_only_the_outline_counts() -> None:

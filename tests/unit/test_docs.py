@@ -13,7 +13,7 @@ from typing import Any, get_args
 import pytest
 
 from hoe_addon.model.characteristic import CHARACTERISTICS
-from hoe_addon.model.document import device_from, hologram_from
+from hoe_addon.model.document import device_from, hologram_from, to_document
 from hoe_addon.model.scene_parts import ElementSpec
 from hoe_addon.model.surface import SURFACES
 from hoe_addon.model.waves import WAVES
@@ -69,10 +69,13 @@ def whole(part: dict[str, Any]) -> dict[str, Any]:
 
 @pytest.mark.parametrize("part", blocks())
 def test_block_is_valid(part: dict[str, Any]) -> None:
+    """It is read, and what was read is written as a document that says the same."""
     if part.get("kind") in ("scene", *tags(*ELEMENTS)):
-        device_from(whole_scene(part))
+        scene = device_from(whole_scene(part))
+        assert device_from(to_document(scene)) == scene
     else:
-        hologram_from(whole(part))
+        hologram = hologram_from(whole(part))
+        assert hologram_from(to_document(hologram)) == hologram
 
 
 def test_every_kind_is_documented() -> None:

@@ -83,7 +83,8 @@ def test_primaries_must_mix_the_white() -> None:
 
 def test_touching_patches_are_fine() -> None:
     # The out-coupler ends at x = 14, and the in-coupler is 6 mm wide.
-    load_device(AR, ["holograms.in_coupler.center_mm=[17, 0]"])
+    spec = load_device(AR, ["holograms.in_coupler.center_mm=[17, 0]"])
+    assert spec.patch("in_coupler").center_mm == (17.0, 0.0)
 
 
 def test_guide_medium_is_named_where_it_stands() -> None:

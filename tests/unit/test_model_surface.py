@@ -86,13 +86,18 @@ def test_written_and_read_again_it_is_the_same(name: str) -> None:
             "surface.outline: must be one of ellipse, rectangle",
         ),
         (SURFACES["plane"] | {"size_mm": [0, 1]}, "surface.size_mm[0]: must be above 0, got 0"),
+        (SURFACES["plane"] | {"size_mm": [1, 1e7]}, "surface.size_mm[1]: must be at most 1e+06"),
         (SURFACES["asphere"] | {"coefficients": [0, 1]}, "surface.coefficients[1]: must change"),
         (SURFACES["asphere"] | {"coefficients": [0] * 13}, "surface.coefficients: must be at most"),
-        (SQUARE | {"faces": []}, "surface.faces: must not be empty"),
-        (SQUARE | {"faces": [[0, 1, 4]]}, "surface.faces[0]: must be from 0 to 3"),
-        (SQUARE | {"faces": [[0, 1, 1]]}, "surface.faces[0]: must have an area"),
+        (SQUARE | {"faces": []}, "surface.faces: must not be empty, got []"),
+        (SQUARE | {"vertices_mm": []}, "surface.vertices_mm: must not be empty, got []"),
+        (SQUARE | {"faces": [[0, 1, 4]]}, "surface.faces[0]: must be from 0 to 3, got [0, 1, 4]"),
+        (SQUARE | {"faces": [[0, 1, 1]]}, "surface.faces[0]: must have an area, got [0, 1, 1]"),
         (SQUARE | {"normals": [[0, 0, 1]] * 3}, "surface.normals: must be as many as the vert"),
-        (SQUARE | {"normals": [[0, 0, 0]] * 4}, "surface.normals[0]: must have a length"),
+        (
+            SQUARE | {"normals": [[0, 0, 0]] * 4},
+            "surface.normals[0]: must have a length, got [0, 0, 0]",
+        ),
         (SQUARE | {"normals": [[0, 0, -1]] * 4}, "surface.faces[0]: must be seen from the side"),
         (SQUARE | {"file": "x.stl"}, "surface.vertices_mm: must not be given beside file"),
         ({"shape": "mesh"}, "surface.file: must be given, or vertices_mm and faces instead"),
@@ -209,7 +214,7 @@ def test_a_file_that_changes_is_read_anew(tmp_path: Path) -> None:
 
 
 BROKEN = {
-    "empty.stl": (b"", "must be a whole STL file"),
+    "empty.stl": (b"", "must be a whole STL file, but ends within its header"),
     "cut.stl": (stl(CORNERS)[:-1], "must be a whole STL file; its header says 2 triangles"),
     "lies.stl": (stl(CORNERS, 4_000_000_000), "must be a whole STL file"),
     "none.stl": (stl([]), "must have faces"),
@@ -230,7 +235,8 @@ BROKEN = {
     "flat.obj": ((OBJ + "vn 0 0 0\nf 1//1 2//1 3//1").encode(), "must have normals with a length"),
     "turned.obj": (
         (OBJ + "vn 0 0 -1\nf 1//1 2//1 3//1").encode(),
-        "faces[0]: must be seen from the side of its corners' normals",
+        "faces[0] must be seen from the side of its corners' normals "
+        "(no fold sharper than that), not [0, 1, 2]",
     ),
 }
 
@@ -242,6 +248,7 @@ def test_broken_files_are_refused_with_a_reason(name: str, tmp_path: Path) -> No
         from_file(tmp_path / name, data)
     text = str(caught.value)
     assert text.startswith(f"surface.file: {message}")
+    assert text.count(", got ") == 1
     assert "\n" not in text
 
 

@@ -196,7 +196,8 @@ def test_a_source_on_the_element_is_refused(name: str, role: str) -> None:
     ],
 )
 def test_a_source_close_to_the_element_or_beside_it_is_fine(wave: dict[str, Any]) -> None:
-    hologram_from(document(wave))
+    spec = hologram_from(document(wave))
+    assert to_document(spec)["recording"]["object"]["position_mm"] == wave["position_mm"]
 
 
 @pytest.mark.parametrize("place", [[0, 0, 0.01], [0, 0, -1.99]])
@@ -210,7 +211,8 @@ def test_a_window_that_the_element_is_not_behind_is_refused(place: list[float]) 
 
 def test_an_element_on_the_far_face_is_behind_the_window() -> None:
     place = WINDOW["window"] | {"position_mm": [0, 0, -2]}
-    hologram_from(document(WINDOW | {"window": place}))
+    spec = hologram_from(document(WINDOW | {"window": place}))
+    assert to_document(spec)["recording"]["object"]["window"] == place
 
 
 WINDOW = {

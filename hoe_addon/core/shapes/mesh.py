@@ -22,6 +22,21 @@ _BOX_SLACK = 1e-9
 """Boxes grow by this share of the mesh, so that rounding never leaves a flat one."""
 
 
+class MeshError(SpecError):
+    """Arrays make no mesh.
+
+    Attributes:
+        place: Array, and row of it.
+        rule: What it breaks.
+        value: What stands there.
+    """
+
+    def __init__(self, place: str, rule: str, value: object) -> None:
+        """Make the message ``place: rule, got value``."""
+        self.place, self.rule, self.value = place, rule, value
+        super().__init__(f"{place}: {rule}, got {value}")
+
+
 @dataclass(frozen=True, eq=False)
 class MeshHit:
     """Where rays meet a mesh.
@@ -59,7 +74,8 @@ class MeshShape:
         faces = np.asarray(self.faces, dtype=np.int64)
         check_triangles(vertices, faces)
         if normals.shape != vertices.shape or not np.isfinite(normals).all():
-            raise SpecError("normals: must be one vector of a length above 0 for each vertex")
+            rule = "must be one vector of a length above 0 for each vertex"
+            raise MeshError("normals", rule, np.asarray(self.normals).tolist())
         for name, value in (("vertices", vertices), ("faces", faces), ("normals", normals)):
             object.__setattr__(self, name, value)
 
@@ -206,36 +222,37 @@ class MeshShape:
 
 
 def check_triangles(vertices: FloatArray, faces: IntArray) -> None:
-    """Raise SpecError unless the arrays make a mesh.
+    """Raise MeshError unless the arrays make a mesh.
 
     Args:
         vertices: Corners, shape ``(V, 3)``.
         faces: Corner numbers, shape ``(F, 3)``.
 
     Raises:
-        SpecError: On another shape, no faces, a number that is not finite, a corner that does
-            not exist, or a triangle without area.
+        MeshError: On another shape, no vertices or faces, a number that is not finite, a corner
+            that does not exist, or a triangle without area.
     """
-    if faces.size == 0:
-        raise SpecError("faces: must not be empty, got a mesh without faces")
+    for name, array in (("vertices", vertices), ("faces", faces)):
+        if array.size == 0:
+            raise MeshError(name, "must not be empty", [])
     if vertices.ndim != 2 or vertices.shape[1] != 3 or faces.ndim != 2 or faces.shape[1] != 3:
-        shapes = f"{list(vertices.shape)} and {list(faces.shape)}"
-        raise SpecError(f"vertices, faces: must be rows of three numbers, got arrays of {shapes}")
+        shapes = f"arrays of {list(vertices.shape)} and {list(faces.shape)}"
+        raise MeshError("vertices, faces", "must be rows of three numbers", shapes)
     bad = ~np.isfinite(vertices).all(axis=1)
     if bad.any():
         row = int(np.argmax(bad))
-        raise SpecError(f"vertices[{row}]: must be finite, got {vertices[row].tolist()}")
+        raise MeshError(f"vertices[{row}]", "must be finite", vertices[row].tolist())
     bad = ((faces < 0) | (faces >= len(vertices))).any(axis=1)
     if bad.any():
         row = int(np.argmax(bad))
-        last = len(vertices) - 1
-        raise SpecError(f"faces[{row}]: must be from 0 to {last}, got {faces[row].tolist()}")
+        rule = f"must be from 0 to {len(vertices) - 1}"
+        raise MeshError(f"faces[{row}]", rule, faces[row].tolist())
     corner = vertices[faces]
     area = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     bad = ~np.any(area != 0.0, axis=1)
     if bad.any():
         row = int(np.argmax(bad))
-        raise SpecError(f"faces[{row}]: must have an area, got {faces[row].tolist()}")
+        raise MeshError(f"faces[{row}]", "must have an area", faces[row].tolist())
 
 
 def smooth_normals(vertices: FloatArray, faces: IntArray) -> FloatArray:

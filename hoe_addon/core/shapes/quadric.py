@@ -6,6 +6,7 @@ The surface is ``c (wx x^2 + wy y^2 + wz z^2) = 2 z`` with the curvature c = 1 /
 divides by c, so a plane (c = 0) and a radius of a million kilometres keep all digits.
 """
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Literal, override
 
@@ -19,18 +20,18 @@ from .shape import check_conic, check_radius
 type _Weights = tuple[float, float, float]
 
 
-class Quadric:
+class Quadric(ABC):
     """Common part of all surfaces of second degree; see `Shape`."""
 
     @property
+    @abstractmethod
     def curvature(self) -> float:
         """One over the radius at the vertex, per metre; 0 for a plane."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def weights(self) -> _Weights:
         """The weights wx, wy, wz of the squares."""
-        raise NotImplementedError
 
     def intersect(self, origin: ArrayLike, direction: ArrayLike) -> FloatArray:
         """Return the distance to the first crossing of the vertex sheet; see `Shape`."""
