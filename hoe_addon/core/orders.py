@@ -19,10 +19,18 @@ class Branch:
     Attributes:
         order: Diffraction order m.
         reflected: True for the order that goes back.
+        frequency: Of the grating that diffracts, over that of the pattern; it is not 1 for the
+            further exposures of a multiplexed hologram. The order 0 belongs to all of them.
     """
 
     order: int
     reflected: bool = False
+    frequency: float = 1.0
+
+    @property
+    def steps(self) -> float:
+        """How many times the grating vector of the pattern is added to the ray."""
+        return self.order * self.frequency
 
 
 TRANSMITTED_ZERO = Branch(0, reflected=False)
@@ -96,7 +104,7 @@ def order_weights(
         as_float(direction)[..., None, :],
         as_float(normal)[..., None, :],
         as_float(gradient)[..., None, :],
-        np.asarray([way.order for way in ways], dtype=np.int64),
+        as_float([way.steps for way in ways]),
         as_float(wavelength_ratio)[..., None],
         as_float(index_in)[..., None],
         as_float(index_out)[..., None],

@@ -43,7 +43,7 @@ def diffract(
         direction: Unit direction of the incident light, shape ``(..., 3)``.
         normal: Unit normal, to either side of the surface, shape ``(..., 3)``.
         gradient: ``n_O s_O - n_R s_R`` of the recording, shape ``(..., 3)``; order 0 ignores it.
-        order: Diffraction order m, integer, shape ``(...)``.
+        order: Diffraction order m, or how many grating vectors are added, shape ``(...)``.
         wavelength_ratio: Wavelength over recording wavelength, shape ``(...)``.
         index_in: Index of the medium of incidence, shape ``(...)``.
         index_out: Index of the other medium, shape ``(...)``; unused for reflected orders.

@@ -48,8 +48,23 @@ class Recording:
             Welford (1975), "A vector raytracing equation for hologram lenses of arbitrary shape",
             Opt. Commun. 14(3), 322-323.
         """
+        first, second = self.waves(points, draws)
+        return first - second
+
+    def waves(
+        self, points: ArrayLike, draws: ArrayLike | None = None
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return ``n_O s_O`` and ``n_R s_R``.
+
+        Args:
+            points: Points on the surface, in the hologram's frame, metres, shape ``(..., 3)``.
+            draws: Uniform numbers in [0, 1), shape ``(..., self.draws)``; None for one half each.
+
+        Returns:
+            Of the object and of the reference wave, each broadcastable to ``(..., 3)``.
+        """
         first, second = self._split(draws)
-        return self.object.gradient(points, first) - self.reference.gradient(points, second)
+        return self.object.gradient(points, first), self.reference.gradient(points, second)
 
     def _split(self, draws: ArrayLike | None) -> tuple[FloatArray | None, FloatArray | None]:
         if draws is None:

@@ -22,7 +22,7 @@ from .device_parts import (
     RoomSpec,
     SourceSpec,
 )
-from .efficiency import ConstantSpec, EfficiencySpec, KinoformSpec, settle_orders
+from .efficiency import EFFICIENCIES, EfficiencySpec, settle_orders
 from .field_error import FieldError
 from .hologram import HologramSpec, Orders, SideMedia
 from .medium import MediumRef
@@ -108,7 +108,7 @@ class PatchSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         field_kinds.choice(self, "face", ("eye", "world"))
         fields.vector(self, "center_mm", 2)
         fields.vector(self, "size_mm", 2, above=0.0)
-        field_kinds.instance(self, "efficiency", KinoformSpec, ConstantSpec)
+        field_kinds.instance(self, "efficiency", *EFFICIENCIES)
         pattern.check(self, PlaneSurface(size_mm=self.size_mm))
         settle_orders(self, self.efficiency)
 

@@ -12,9 +12,8 @@ import numpy as np
 
 from ..core import tracer
 from ..core.arrays import BoolArray, FloatArray
-from ..core.orders import Branch
 from ..core.units import mm_to_m
-from .convert import branches_from, efficiency_from, pattern_from
+from .convert import pattern_from
 from .device import GuideSpec, LightGuideSpec, PatchSpec
 from .medium import medium_from
 from .pattern import pattern_of
@@ -157,25 +156,14 @@ def _bare_face(spec: LightGuideSpec, face: str) -> tracer.Dielectric:
 
 
 def _grating(guide: GuideSpec, patch: PatchSpec) -> tracer.Grating:
-    shares = efficiency_from(patch.efficiency)
-
-    def efficiency(
-        order: int,
-        reflected: bool,
-        _directions: FloatArray,
-        _from_front: BoolArray,
-        wavelengths: FloatArray,
-    ) -> FloatArray:
-        return shares((Branch(order, reflected=reflected),), wavelengths)[:, 0]
-
     return tracer.Grating(
         frame=_face_frame(guide, patch.face, patch.center_mm),
         aperture=tracer.Aperture(_rectangle(patch.size_mm)),
         pattern=pattern_from(pattern_of(patch)),
         index_back=medium_from(guide.medium),
         index_front=medium_from(guide.outside),
-        branches=branches_from(patch.efficiency, patch.orders),
-        efficiency=efficiency,
+        branches=patch.efficiency.branches(patch.orders, pattern_of(patch).wavelength_nm),
+        efficiency=patch.efficiency.model(),
         total_internal_reflection=patch.efficiency.total_internal_reflection,
     )
 

@@ -1,14 +1,11 @@
 # SPDX-FileCopyrightText: hoe_addon contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reading and writing whole documents: holograms and devices, with the version of their format."""
+"""Reading whole documents: holograms and devices, with the version of their format."""
 
 import contextlib
-import json
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, cast
-
-import msgspec
 
 from ..core.errors import SpecError
 from ..resources import preset_paths
@@ -17,9 +14,10 @@ from .device_parts import BUILT_IN_IMAGES, DisplaySpec
 from .field_error import FieldError, show
 from .hologram import HologramSpec
 from .override import override
-from .plain import plain
 from .reading import naming, parse_json, read_text, to_spec
 from .scene import SceneSpec
+from .writing import dump as dump
+from .writing import to_document as to_document
 
 SCHEMA = 1
 """Version of the format that this program writes."""
@@ -31,8 +29,6 @@ _MIGRATIONS: Mapping[int, Migration] = {}
 """For each older version, the step to the next one; every format change adds one."""
 
 _DEVICES: Mapping[str, type[DeviceSpec]] = {"light_guide": LightGuideSpec, "scene": SceneSpec}
-_LINE = 80
-_INDENT = "  "
 
 
 def hologram_from(document: object) -> HologramSpec:
@@ -221,63 +217,6 @@ def _picture_path(field: str, image: str, folder: Path) -> Path:
         rule = f"must be {', '.join(BUILT_IN_IMAGES)} or a file that exists"
         raise FieldError(field, rule, image)
     return path
-
-
-def to_document(spec: msgspec.Struct) -> Document:
-    """Turn a spec into plain data, every field written out.
-
-    Args:
-        spec: A hologram, a device, or a part of one.
-
-    Returns:
-        Objects, lists and numbers that give the same spec again; whole numbers without a point.
-    """
-    return cast("Document", _without_absent(plain(msgspec.to_builtins(spec))))
-
-
-def _without_absent(value: object) -> object:
-    """Leave out the one of ``recording`` and ``characteristic`` that an element does not have."""
-    if isinstance(value, list):
-        return [_without_absent(item) for item in cast("list[object]", value)]
-    if not isinstance(value, dict):
-        return value
-    return {
-        name: _without_absent(item)
-        for name, item in cast("Document", value).items()
-        if item is not None or name not in ("recording", "characteristic")
-    }
-
-
-def dump(spec: msgspec.Struct) -> str:
-    """Write a spec as JSON text.
-
-    Args:
-        spec: A hologram, a device, or a part of one.
-
-    Returns:
-        The text: fields in fixed order, floats in the shortest form that reads back the same,
-        lists of plain values on one line.
-    """
-    return _written(to_document(spec), "") + "\n"
-
-
-def _written(value: object, indent: str) -> str:
-    deeper = indent + _INDENT
-    if isinstance(value, dict) and value:
-        table = cast("Document", value)
-        line = json.dumps(table, ensure_ascii=False, allow_nan=False)
-        if _is_flat(table.values()) and len(line) <= _LINE:
-            return line
-        rows = [f"{json.dumps(name)}: {_written(item, deeper)}" for name, item in table.items()]
-        return "{\n" + ",\n".join(deeper + row for row in rows) + "\n" + indent + "}"
-    if isinstance(value, list) and not _is_flat(cast("list[object]", value)):
-        rows = [deeper + _written(item, deeper) for item in cast("list[object]", value)]
-        return "[\n" + ",\n".join(rows) + "\n" + indent + "]"
-    return json.dumps(value, ensure_ascii=False, allow_nan=False)
-
-
-def _is_flat(values: Iterable[object]) -> bool:
-    return not any(isinstance(value, dict | list) for value in values)
 
 
 def preset_titles() -> dict[str, str]:

@@ -7,13 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.arrays import FloatArray, as_float, dot
+from ..core.arrays import FloatArray, as_float
+from ..core.efficiency import Polarization, meet
 from ..core.errors import SpecError
 from ..core.orders import TRANSMITTED_ZERO, Branch, OrderFan, order_weights
 from ..core.ray_law import Status
 from ..core.shapes import MeshShape
 from ..core.units import m_to_mm, mm_to_m, nm_to_m
-from .convert import efficiency_from, pattern_from
+from .convert import pattern_from
 from .element import element_shape, first_hit
 from .hologram import HologramSpec
 from .medium import medium_from
@@ -30,6 +31,7 @@ def fan(
     wavelength_nm: ArrayLike,
     branches: Sequence[Branch],
     draws: ArrayLike | None = None,
+    polarization: Polarization = Polarization.UNPOLARISED,
 ) -> OrderFan:
     """Diffract rays that hit a hologram, with the power of each branch.
 
@@ -42,6 +44,7 @@ def fan(
         branches: Ways out to look at; any order, listed in the document or not.
         draws: Uniform numbers in [0, 1) that choose the points of extended sources, shape
             ``(..., pattern.draws)``; None for a middle point.
+        polarization: Of the light.
 
     Returns:
         Directions, weights and status, shape ``(..., K)``; with total internal reflection, or
@@ -56,22 +59,20 @@ def fan(
         ways = (*ways, TRANSMITTED_ZERO)
     incident, wavelength_nm = as_float(direction), as_float(wavelength_nm)
     wavelength = nm_to_m(wavelength_nm)
-    shape = np.broadcast_shapes(incident.shape[:-1], wavelength_nm.shape)
-    index_back, index_front = (
-        np.broadcast_to(_index(spec, side, wavelength), shape) for side in ("back", "front")
-    )
+    back, front = (_index(spec, side, wavelength) for side in ("back", "front"))
     points = mm_to_m(as_float(points_mm))
     normal = element_shape(spec).normal(points)
-    from_back = np.broadcast_to(dot(incident, normal) > 0.0, shape)
+    pattern = pattern_from(spec.pattern)
+    gradient, light = meet(pattern, points, draws, normal, incident, wavelength, (back, front))
     return order_weights(
         ways,
-        efficiency_from(spec.efficiency)(ways, wavelength),
+        spec.efficiency.model().shares(ways, light, polarization),
         incident,
         normal,
-        pattern_from(spec.pattern).gradient(points, draws),
+        gradient,
         wavelength_nm / spec.pattern.wavelength_nm,
-        np.where(from_back, index_back, index_front),
-        np.where(from_back, index_front, index_back),
+        light.index_in,
+        light.index_out,
         total_internal_reflection=spec.efficiency.total_internal_reflection,
     )
 
@@ -166,6 +167,7 @@ def efficiencies(
     direction: ArrayLike,
     wavelength_nm: ArrayLike,
     orders: Sequence[int],
+    polarization: Polarization = Polarization.UNPOLARISED,
 ) -> FloatArray:
     """Share of the power in each order and side, for rays through the centre of a hologram.
 
@@ -174,6 +176,7 @@ def efficiencies(
         direction: Unit directions of travel, shape ``(..., 3)``.
         wavelength_nm: Vacuum wavelengths, nm, broadcastable to ``(...)``.
         orders: The K orders, listed in the document or not.
+        polarization: Of the light.
 
     Returns:
         Shares, shape ``(..., K, 2)``: transmitted, reflected; exactly 0 where evanescent.
@@ -182,6 +185,6 @@ def efficiencies(
         SpecError: If a medium has no index at one of the wavelengths.
     """
     ways = [Branch(order, reflected=side) for order in orders for side in (False, True)]
-    out = fan(spec, centre_mm(spec), direction, wavelength_nm, ways)
+    out = fan(spec, centre_mm(spec), direction, wavelength_nm, ways, polarization=polarization)
     shares = out.weights[..., : len(ways)]
     return shares.reshape(*shares.shape[:-1], len(orders), 2)

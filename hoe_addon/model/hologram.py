@@ -8,7 +8,7 @@ from msgspec import Meta, Struct
 
 from . import field_kinds, medium, pattern
 from .characteristic import CharacteristicSpec
-from .efficiency import ConstantSpec, EfficiencySpec, KinoformSpec, settle_orders
+from .efficiency import EFFICIENCIES, EfficiencySpec, settle_orders
 from .field_error import FieldError
 from .medium import MediumRef
 from .pattern import PatternSpec, pattern_of
@@ -64,7 +64,7 @@ class HologramSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
         field_kinds.text(self, "name")
         field_kinds.instance(self, "surface", *SURFACES)
         field_kinds.instance(self, "media", SideMedia)
-        field_kinds.instance(self, "efficiency", KinoformSpec, ConstantSpec)
+        field_kinds.instance(self, "efficiency", *EFFICIENCIES)
         pattern.check(self, self.surface)
         for side in ("back", "front"):
             try:

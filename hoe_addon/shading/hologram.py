@@ -9,13 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.arrays import FloatArray
+from ..core.efficiency.table import EfficiencyTable
 from ..core.orders import REFLECTED_ZERO, TRANSMITTED_ZERO, Branch
-from ..model.convert import branches_from
-from ..model.efficiency import EfficiencySpec, KinoformSpec
 from ..model.hologram import HologramSpec
+from .efficiency import EfficiencyPart, efficiency_part
+from .haze import haze_definitions, haze_sockets
 from .map import map_part
 from .medium import medium_sockets
-from .part import SocketValues, parameter
+from .part import SocketValues
 from .pattern import Followed, pattern_part
 from .source import ShaderSource, specialised
 from .surface import surface_part
@@ -43,33 +44,44 @@ class Frame:
         return made
 
 
-def hologram_shader(spec: HologramSpec, followed: Followed | None = None) -> ShaderSource:
+def hologram_shader(
+    spec: HologramSpec, followed: Followed | None = None, table: EfficiencyTable | None = None
+) -> ShaderSource:
     """Specialise the hologram shader. Equal kinds and orders give equal texts.
 
     Args:
         spec: The hologram.
         followed: Waves of its recording that follow an object, in the object's frame.
+        table: Its efficiencies, indexed by the ray that is walked backward, where its model uses
+            a table; the numbers go into the text.
 
     Returns:
         The flat text.
     """
-    branches = branches_from(spec.efficiency, spec.orders)
+    branches = _branches(spec)
     folds = spec.efficiency.total_internal_reflection and TRANSMITTED_ZERO in branches
-    return _shader(spec, branches, folds=folds, unrecorded=_unrecorded(spec), followed=followed)
+    unrecorded = _unrecorded(spec) | haze_definitions(spec.efficiency.haze)
+    return _shader(spec, branches, folds=folds, more=unrecorded, followed=followed, table=table)
 
 
-def one_order_shader(spec: HologramSpec, branch: Branch) -> ShaderSource:
-    """The same shader with one way out, to read its direction and efficiency back.
+def one_order_shader(
+    spec: HologramSpec, branch: Branch, table: EfficiencyTable | None = None
+) -> ShaderSource:
+    """The same shader with one way out, to read its direction and efficiency as light back.
+
+    There is no haze in it, and the shares of a table are interpolated.
 
     Args:
         spec: The hologram.
         branch: The order and side; it need not be one that the document lists.
+        table: Its efficiencies, indexed by the light, where its model uses a table.
 
     Returns:
         The flat text.
     """
     folds = spec.efficiency.total_internal_reflection and branch == REFLECTED_ZERO
-    return _shader(spec, (branch,), folds=folds, unrecorded=_unrecorded(spec, branch))
+    unrecorded = _unrecorded(spec, branch)
+    return _shader(spec, (branch,), folds=folds, more=unrecorded, forward=True, table=table)
 
 
 def unit_efficiency_shader(spec: HologramSpec, branch: Branch) -> ShaderSource:
@@ -110,7 +122,7 @@ def hologram_sockets(
     values |= surface_part(spec.surface, units_per_mm).sockets
     values |= medium_sockets("back", spec.media.back)
     values |= medium_sockets("front", spec.media.front)
-    values |= _efficiency_sockets(spec.efficiency)
+    values |= efficiency_part(spec, _branches(spec)).sockets
     return values
 
 
@@ -121,29 +133,21 @@ def _shader(
     folds: bool,
     unrecorded: Mapping[str, str],
     followed: Followed | None = None,
+    forward: bool = False,
 ) -> ShaderSource:
-    efficiency = spec.efficiency
     needed = (*branches, TRANSMITTED_ZERO) if folds else tuple(branches)
-    if isinstance(efficiency, KinoformSpec):
-        shares = {
-            branch: f"hoe_kinoform_efficiency({branch.order}, alpha, sine_alpha, levels)"
-            for branch in needed
-            if not branch.reflected
-        }
-        parameters, prepare = _KINOFORM_PARAMETERS, _KINOFORM_PREPARE
-    else:
-        shares = {branch: _share_socket(branch) for branch in dict.fromkeys(needed)}
-        parameters = " ".join(_share_parameter(branch) for branch in shares)
-        prepare = ""
+    part = efficiency_part(spec, needed)
     definitions = {
-        "HOE_EFFICIENCY_PARAMETERS": parameters,
-        "HOE_PREPARE_EFFICIENCY": prepare,
-        "HOE_EACH_ORDER(X)": _each_order(branches, shares),
+        "HOE_EFFICIENCY_PARAMETERS": part.parameters,
+        "HOE_PREPARE_EFFICIENCY": part.prepare,
+        "HOE_EACH_ORDER(X)": _each_order(branches, part.shares),
     }
+    if forward:
+        definitions["HOE_FORWARD"] = "1"
     if folds:
         definitions["HOE_TOTAL_INTERNAL_REFLECTION"] = "1"
-        definitions["HOE_ZERO_ORDER_TRANSMITTED"] = shares[TRANSMITTED_ZERO]
-    return _assembled(spec, definitions, unrecorded, followed)
+        definitions["HOE_ZERO_ORDER_TRANSMITTED"] = part.shares[TRANSMITTED_ZERO]
+    return _assembled(spec, definitions, unrecorded, followed, part.functions)
 
 
 def _assembled(
@@ -151,6 +155,7 @@ def _assembled(
     efficiency: Mapping[str, str],
     unrecorded: Mapping[str, str],
     followed: Followed | None = None,
+    functions: str = "",
 ) -> ShaderSource:
     """The text from its parts; the numbers in them are sockets, so their scale does not matter."""
     pattern = pattern_part(spec.pattern, 1.0, followed)
@@ -165,30 +170,9 @@ def _assembled(
     }
     if "recorded = 0" in definitions["HOE_FIND_GRADIENT"]:
         definitions |= unrecorded
-    return specialised("hoe_hologram", definitions, pattern.functions + surface.functions)
-
-
-_KINOFORM_PARAMETERS = " ".join(
-    parameter(*declaration)
-    for declaration in (
-        ("float", "levels", "0.0", "Levels", "Steps of the relief; 0 is continuous"),
-        (
-            "float",
-            "design_wavelength_nm",
-            "532.0",
-            "Design Wavelength",
-            "One wave deep here, in nm",
-        ),
-        ("float", "relief_a", "2.25", "Relief A", "Constant of n^2 of the relief"),
-        ("vector", "relief_b", "vector(0.0)", "Relief B", "Sellmeier B1 B2 B3"),
-        ("vector", "relief_c_um2", "vector(0.0)", "Relief C", "Sellmeier C1 C2 C3, in um^2"),
+    return specialised(
+        "hoe_hologram", definitions, pattern.functions + surface.functions + functions
     )
-)
-_KINOFORM_PREPARE = (
-    "float alpha = hoe_phase_depth(relief_a, relief_b, relief_c_um2, "
-    "design_wavelength_nm, wavelength_nm); "
-    "float sine_alpha = hoe_sin_pi(alpha);"
-)
 
 
 def _unrecorded(spec: HologramSpec, only: Branch | None = None) -> dict[str, str]:
@@ -203,39 +187,18 @@ def _unrecorded(spec: HologramSpec, only: Branch | None = None) -> dict[str, str
     return found
 
 
+def _branches(spec: HologramSpec) -> tuple[Branch, ...]:
+    return spec.efficiency.branches(spec.orders, spec.pattern.wavelength_nm)
+
+
+def _steps(branch: Branch) -> str:
+    return str(branch.order) if branch.frequency == 1.0 else f"{branch.steps:.9g}"
+
+
 def _each_order(branches: Sequence[Branch], shares: Mapping[Branch, str]) -> str:
     sides = {False: "HOE_TRANSMITTED", True: "HOE_REFLECTED"}
     return " ".join(
-        f"X({branch.order}, {sides[branch.reflected]}, {shares[branch]})"
+        f"X({_steps(branch)}, {sides[branch.reflected]}, {shares[branch]})"
         for branch in branches
         if branch in shares
     )
-
-
-def _share_socket(branch: Branch) -> str:
-    sign = "m" if branch.order < 0 else "p"
-    return f"efficiency_{'r' if branch.reflected else 't'}_{sign}{abs(branch.order)}"
-
-
-def _share_parameter(branch: Branch) -> str:
-    side = "Reflected" if branch.reflected else "Transmitted"
-    label = f"{side} {branch.order:+d}"
-    words = "Share of the light in this order, 0 to 1"
-    return (
-        f"float {_share_socket(branch)} = 0.0 "
-        f'[[ string label = "{label}", string help = "{words}", float min = 0, float max = 1 ]],'
-    )
-
-
-def _efficiency_sockets(efficiency: EfficiencySpec) -> SocketValues:
-    if isinstance(efficiency, KinoformSpec):
-        return {
-            "levels": float(efficiency.levels),
-            "design_wavelength_nm": efficiency.design_wavelength_nm,
-            **medium_sockets("relief", efficiency.relief),
-        }
-    return {
-        _share_socket(Branch(order, reflected=reflected)): share
-        for reflected, side in ((False, "T"), (True, "R"))
-        for order, share in efficiency.table.shares(side).items()
-    }

@@ -43,6 +43,7 @@ def pattern_part(
             (
                 stated,
                 _wave("object", "+", pattern.object, units_per_mm, followed or {}),
+                ShaderPart(code="object_wave = gradient;"),
                 _wave("reference", "-", pattern.reference, units_per_mm, followed or {}),
             )
         )

@@ -12,7 +12,7 @@ import pytest
 from hoe_addon.core import media
 from hoe_addon.core.arrays import unit
 from hoe_addon.core.characteristic import LinearGrating
-from hoe_addon.core.kinoform import efficiency, phase_depth
+from hoe_addon.core.efficiency.kinoform import efficiency, phase_depth
 from hoe_addon.core.orders import Branch
 from hoe_addon.core.ray_law import Status, diffract
 from hoe_addon.core.recording import Recording

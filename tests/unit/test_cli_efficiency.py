@@ -13,7 +13,8 @@ import pytest
 
 from hoe_addon.cli import main
 from hoe_addon.cli.parser import numbers, orders
-from hoe_addon.core import kinoform, media
+from hoe_addon.core import media
+from hoe_addon.core.efficiency import kinoform
 
 DOCUMENTS = Path(__file__).parents[1] / "documents"
 REFERENCE = Path(__file__).parents[1] / "reference"

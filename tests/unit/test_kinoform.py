@@ -7,8 +7,8 @@ import pytest
 from mpmath import mp, mpf
 
 from hoe_addon.core import media
+from hoe_addon.core.efficiency.kinoform import amplitude, efficiency, phase_depth
 from hoe_addon.core.errors import SpecError
-from hoe_addon.core.kinoform import amplitude, efficiency, phase_depth
 
 RELATIVE = 1e-13
 """Ten roundings of sine, quotient and square."""

@@ -2,12 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The tracer: frames, apertures, sequences forward and back, and the splitting walk."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
 from hoe_addon.core import media
-from hoe_addon.core.arrays import BoolArray, FloatArray, unit
+from hoe_addon.core.arrays import FloatArray, unit
 from hoe_addon.core.characteristic import LinearGrating
+from hoe_addon.core.efficiency import Incidence, Polarization
+from hoe_addon.core.efficiency.constant import ConstantShares
 from hoe_addon.core.errors import SpecError
 from hoe_addon.core.fresnel import reflectance_unpolarised
 from hoe_addon.core.orders import REFLECTED_ZERO, TRANSMITTED_ZERO, Branch
@@ -46,13 +50,19 @@ EXACT = 1e-14
 """Some ten roundings of lengths below 0.1 m and of direction components."""
 
 
-def equal_shares(share: float):
-    def efficiency(
-        _order: int, _reflected: bool, _directions: FloatArray, _front: BoolArray, _wl: FloatArray
-    ) -> float:
-        return share
+class EqualShares:
+    """The same share for every branch."""
 
-    return efficiency
+    def __init__(self, share: float) -> None:
+        self.share = share
+
+    def shares(
+        self,
+        branches: Sequence[Branch],
+        light: Incidence,
+        polarization: Polarization = Polarization.UNPOLARISED,
+    ) -> FloatArray:
+        return np.full((*light.shape, len(branches)), self.share)
 
 
 def grating(frame: Frame, frequency: float, aperture: Aperture = WIDE, **changes) -> Grating:
@@ -61,7 +71,7 @@ def grating(frame: Frame, frequency: float, aperture: Aperture = WIDE, **changes
         "index_back": AIR,
         "index_front": AIR,
         "branches": (Branch(1),),
-        "efficiency": equal_shares(1.0),
+        "efficiency": EqualShares(1.0),
     }
     return Grating(frame=frame, aperture=aperture, **(settings | changes))
 
@@ -279,7 +289,7 @@ class TestTree:
             Aperture(hole),
             index_back=GLASS,
             branches=(Branch(1), Branch(-1), TRANSMITTED_ZERO, Branch(1, True), Branch(-1, True)),
-            efficiency=equal_shares(0.18),
+            efficiency=EqualShares(0.18),
             total_internal_reflection=True,
         )
         black = Absorber(
@@ -336,7 +346,7 @@ class TestTree:
             Frame.at((0, 0, 0.01), normal=(0.1, 0.2, 1)),
             0.3 / GREEN,
             branches=(Branch(2), REFLECTED_ZERO, Branch(-1, True)),
-            efficiency=equal_shares(0.25),
+            efficiency=EqualShares(0.25),
         )
         rays = Rays.of((0, 0, 0), rng.normal(size=(30, 3)) * 0.1 + [0, 0, 1], GREEN)
         screen = receiver(0.02)
@@ -365,7 +375,7 @@ class TestGuide:
                 Aperture(Rectangle(patch_width, 1e-2)),
                 index_back=GLASS,
                 branches=(Branch(1), TRANSMITTED_ZERO),
-                efficiency=lambda order, *_, share=share: share if order else 1.0 - share,
+                efficiency=ConstantShares({Branch(1): share, TRANSMITTED_ZERO: 1.0 - share}),
                 total_internal_reflection=True,
             )
             for number, share in enumerate(shares)

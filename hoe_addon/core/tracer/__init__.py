@@ -11,7 +11,6 @@ from .sequence import SequenceWalk, Step, walk_sequence, walk_sequence_backward
 from .surfaces import (
     Absorber,
     Dielectric,
-    EfficiencyModel,
     Grating,
     IdealLens,
     Mirror,
@@ -25,7 +24,6 @@ __all__ = [
     "Aperture",
     "Circle",
     "Dielectric",
-    "EfficiencyModel",
     "EnergyBalance",
     "Frame",
     "Grating",

@@ -3,13 +3,13 @@
 """Planar surfaces and what they do to light. All methods work in the frame of the surface."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import override
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from ..efficiency import EfficiencyModel, meet
 from ..fresnel import reflectance_unpolarised
 from ..media import Medium
 from ..orders import Branch, order_weights
@@ -21,10 +21,6 @@ NORMAL = np.array([0.0, 0.0, 1.0])
 """The front normal of each surface in its own frame."""
 
 _MIRROR_IMAGE = np.array([1.0, 1.0, -1.0])
-
-type EfficiencyModel = Callable[[int, bool, FloatArray, BoolArray, FloatArray], FloatArray | float]
-"""(order, reflected, incident directions (R, 3) in the local frame, mask (R,) of light that comes
-from the front, wavelengths (R,)) -> efficiencies that broadcast to (R,)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,21 +86,27 @@ class Grating(PlanarSurface):
 
     @override
     def scatter(self, rays: LocalRays) -> tuple[FloatArray, FloatArray]:
-        index_in, index_out = _indices(rays, self.index_back, self.index_front)
-        base = np.empty((len(rays.points), len(self.branches)))
-        for column, way in enumerate(self.branches):
-            base[:, column] = self.efficiency(
-                way.order, way.reflected, rays.directions, rays.from_front, rays.wavelengths
-            )
+        back, front = (
+            medium.index(rays.wavelengths) for medium in (self.index_back, self.index_front)
+        )
+        gradient, light = meet(
+            self.pattern,
+            rays.points,
+            None,
+            NORMAL,
+            rays.directions,
+            rays.wavelengths,
+            (back, front),
+        )
         fan = order_weights(
             self.branches,
-            base,
+            self.efficiency.shares(self.branches, light),
             rays.directions,
             NORMAL,
-            self.pattern.gradient(rays.points),
+            gradient,
             rays.wavelengths / self.pattern.wavelength,
-            index_in,
-            index_out,
+            light.index_in,
+            light.index_out,
             total_internal_reflection=self.total_internal_reflection,
         )
         return fan.directions, fan.weights
@@ -116,7 +118,7 @@ class Grating(PlanarSurface):
             rays.directions,
             NORMAL,
             self.pattern.gradient(rays.points),
-            branch.order,
+            branch.steps,
             rays.wavelengths / self.pattern.wavelength,
             index_in,
             index_out,

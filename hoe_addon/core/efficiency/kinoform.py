@@ -20,9 +20,9 @@ References:
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import ComplexArray, FloatArray, IntArray, as_float
-from .errors import SpecError
-from .media import Medium
+from ..arrays import ComplexArray, FloatArray, IntArray, as_float
+from ..errors import SpecError
+from ..media import Medium
 
 CONTINUOUS = 0
 """The number of levels that stands for a continuous relief."""
