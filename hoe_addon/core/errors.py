@@ -25,3 +25,7 @@ class RenderError(HoeError):
 
 class CancelledError(HoeError):
     """The user stopped the work."""
+
+
+class ConvergenceError(HoeError):
+    """A calculation was stopped before its result stood still; the message holds the error."""

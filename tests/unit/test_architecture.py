@@ -92,9 +92,9 @@ def test_no_blender_below_the_blender_layer(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", sources_of("core"), ids=name_of)
-def test_core_needs_numpy_only(path: Path) -> None:
+def test_core_needs_numpy_and_its_threads_only(path: Path) -> None:
     roots = {name.split(".")[0] for name in imported(path)}
-    assert roots <= {"numpy", "hoe_addon", *sys.stdlib_module_names}
+    assert roots <= {"numpy", "threadpoolctl", "hoe_addon", *sys.stdlib_module_names}
     assert not {name for name in imported(path) if layer_of(name) == "resources"}
 
 
