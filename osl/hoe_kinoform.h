@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: hoe_addon contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Scalar efficiency of a kinoform: continuous or with N levels. Same function as core/kinoform.py.
+// Scalar efficiency of a kinoform: continuous or with N levels. Same functions as
+// core/efficiency/kinoform.py.
 #ifndef HOE_KINOFORM_H
 #define HOE_KINOFORM_H
 
@@ -32,31 +33,53 @@ float hoe_sinc_pi(float x)
     return abs(x) <= 0.5 ? hoe_sinc_pi_near_zero(x) : hoe_sin_pi(x) / (M_PI * x);
 }
 
-// Phase depth alpha in waves: (n - 1) / (n0 - 1) * lambda0 / lambda.
-float hoe_phase_depth(float a, vector b, vector c_um2, float design_wavelength_nm, float wavelength_nm)
+// |sinc(order / parts)|: the rest of the quotient is exact, and so are the zeros.
+float hoe_sinc_of_quotient(int order, float parts)
 {
-    float excess = hoe_index(a, b, c_um2, wavelength_nm) - 1.0;
-    float design_excess = hoe_index(a, b, c_um2, design_wavelength_nm) - 1.0;
-    return (excess / design_excess) * (design_wavelength_nm / wavelength_nm);
+    float turns = round(order / parts);
+    float rest = (order - turns * parts) / parts;
+    float wave = hoe_sinc_pi_near_zero(rest);
+    return turns == 0.0 ? wave : abs(rest * wave * parts / order);
+}
+
+// Phase depth in waves of a relief in air, for light along its normal.
+float hoe_straight_depth(float depth_waves, float index, float design_index,
+                         float design_wavelength_nm, float wavelength_nm)
+{
+    return depth_waves * ((index - 1.0) / (design_index - 1.0) * (design_wavelength_nm / wavelength_nm));
+}
+
+// The same for light whose n s has the tangential parts x and y: it goes with
+// n cos theta - cos theta_air, written as (n^2 - 1) / (n cos theta + cos theta_air). Beyond the
+// critical angle of air its cosine counts as 0.
+float hoe_oblique_depth(float straight, float index, float x, float y)
+{
+    float squared = x * x + y * y;
+    float in_relief = sqrt(max(index * index - squared, 0.0));
+    if (squared < 1.0)
+        return straight * ((index + 1.0) / (in_relief + sqrt(1.0 - squared)));
+    return index > 1.0 ? straight * (in_relief / (index - 1.0)) : 0.0;
 }
 
 // |D_m|^2 at phase depth alpha (in waves); levels 0 is the continuous relief.
-// Swanson (1989), MIT Lincoln Laboratory TR 854; derivation in core/kinoform.py. Both forms are
-// sin(pi (alpha - m)) over something that is zero with it: where that happens, the quotient of two
-// sinc is used. |sin(pi (alpha - m))| is the same for all orders, so the caller computes it once:
-// sine_alpha = hoe_sin_pi(alpha). Signs are left out, the result is a square.
-float hoe_kinoform_efficiency(int order, float alpha, float sine_alpha, float levels)
+// Swanson (1989), MIT Lincoln Laboratory TR 854. Both forms are sin(pi (alpha - m)) over something
+// that is zero with it: where that happens, the quotient of two sinc is used. Signs are left out,
+// the result is a square. Whole numbers are taken out first, so that alpha - m loses no digits.
+float hoe_kinoform_efficiency(int order, float alpha, float levels)
 {
-    float distance = alpha - order;
+    float whole = round(alpha);
+    float steps = whole - order;
+    float distance = steps + (alpha - whole);
     float step_factor = 1.0;
     float step_width = 1.0;
     if (levels >= 2.0) {
+        distance = (steps - levels * round(steps / levels)) + (alpha - whole);
         distance -= levels * round(distance / levels);
-        step_factor = hoe_sinc_pi(order / levels);
+        step_factor = hoe_sinc_of_quotient(order, levels);
         step_width = hoe_sinc_pi_near_zero(distance / levels);
     }
     float wave = abs(distance) <= 0.5 ? hoe_sinc_pi_near_zero(distance)
-                                      : sine_alpha / (M_PI * distance);
+                                      : hoe_sin_pi(alpha) / (M_PI * distance);
     float amplitude = step_factor * wave / step_width;
     return amplitude * amplitude;
 }

@@ -159,3 +159,68 @@ def test_phase_depth_with_dispersion() -> None:
 def test_relief_without_a_step_is_refused() -> None:
     with pytest.raises(SpecError, match=r"^relief: index must not be 1 at the design wavelength"):
         phase_depth(532e-9, 532e-9, media.by_name("air"))
+
+
+def oblique(index: float, t: float) -> mpf:
+    """Phase depth at the design wavelength from the path difference itself, with 50 digits."""
+    n, along = mpf(index), mpf(t)
+    air = mp.sqrt(1 - along**2) if along < 1 else mpf(0)
+    return (mp.sqrt(n**2 - along**2) - air) / (n - 1)
+
+
+@pytest.mark.parametrize("index", [1.0001, 1.5, 2.4])
+def test_oblique_depth_is_the_path_difference(index: float) -> None:
+    beyond = 0.5 * (1.0 + index)
+    with mp.workdps(50):
+        for t in (0.0, 1e-8, 0.1, 0.7, 0.999, 1.0 - 1e-9, 1.0, beyond):
+            depth = float(phase_depth(532e-9, 532e-9, media.constant(index), [0.6 * t, 0.8 * t]))
+            along = float(np.hypot(0.6 * t, 0.8 * t))
+            # A rounding of t moves the small root of air, or of the relief, by t / root of it.
+            root = min(abs(1 - along**2), abs(index**2 - along**2)) ** 0.5
+            allowed = RELATIVE / (index - 1.0) * (1.0 + 1e-3 / max(root, 1e-8))
+            assert abs(depth - oblique(index, along)) < allowed, (index, t)
+
+
+def test_along_the_normal_nothing_changes() -> None:
+    glass = media.by_name("fused silica")
+    wavelengths = np.linspace(400e-9, 700e-9, 31)
+    straight = phase_depth(wavelengths, 532e-9, glass)
+    found = phase_depth(wavelengths, 532e-9, glass, np.zeros((31, 2)))
+    np.testing.assert_array_equal(found, straight)
+
+
+def test_depth_grows_with_the_angle_and_goes_to_0_beyond_the_relief() -> None:
+    relief = media.constant(1.5)
+    t = np.array([0.0, 0.3, 0.6, 0.9, 1.0])
+    depth = phase_depth(532e-9, 532e-9, relief, np.stack((t, 0.0 * t), axis=-1))
+    assert np.all(np.diff(depth) > 0.0)
+    assert phase_depth(532e-9, 532e-9, relief, [1.4999, 0.0]) < 0.05
+    assert phase_depth(532e-9, 532e-9, relief, [0.0, 1.6]) == 0.0
+
+
+def test_oblique_light_does_not_mend_a_relief_without_a_step() -> None:
+    with pytest.raises(SpecError, match=r"^relief: index must not be 1 at the design wavelength"):
+        phase_depth(532e-9, 532e-9, media.by_name("air"), [0.5, 0.0])
+
+
+@pytest.mark.parametrize("levels", [0, 2, 3, 8, 9])
+@pytest.mark.parametrize("share", [0.25, 1.0])
+def test_walls_are_the_fourier_integral_of_straight_lines(levels: int, share: float) -> None:
+    """Against the box average of the profile, sampled: an integral that knows no formula."""
+    samples = 20_160
+    width = share / (levels or 10)
+    place = (np.arange(samples) + 0.5) / samples
+    step = place if levels == 0 else (np.floor(place * levels) + 0.5) / levels
+    span = round(width * samples)
+    kernel = np.zeros(samples)
+    kernel[np.arange(-(span // 2), span - span // 2)] = 1.0 / span
+    smooth = np.fft.irfft(np.fft.rfft(step) * np.fft.rfft(kernel), samples)
+    orders = np.arange(-9, 10)
+    for alpha in (0.4, 1.0, 2.3):
+        waves = np.exp(2j * np.pi * (alpha * smooth - orders[:, None] * place))
+        found = amplitude(orders, alpha, levels, span / samples)
+        # An even or odd number of samples in the box shifts it by half a sample at most.
+        assert np.max(np.abs(found - np.mean(waves, axis=1))) < 2.0 * np.pi * 11.3 / samples
+        np.testing.assert_allclose(
+            np.abs(found) ** 2, efficiency(orders, alpha, levels, span / samples), atol=1e-14
+        )

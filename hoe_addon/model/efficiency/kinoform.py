@@ -1,33 +1,50 @@
 # SPDX-FileCopyrightText: hoe_addon contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The kinoform of a document: a blazed phase relief, continuous or in steps."""
+"""The kinoform of a document: a thin phase relief, a sawtooth by default."""
 
 from collections.abc import Iterable
 
-from ...core.efficiency import EfficiencyModel
+from msgspec import field
+
+from ...core.efficiency.profiles import Profile
 from ...core.efficiency.relief import Kinoform
+from ...core.efficiency.segments import Segments, Steps
 from ...core.orders import Branch
 from ...core.units import nm_to_m
-from .. import fields, medium
+from .. import field_kinds, fields, medium
 from ..field_error import FieldError
 from ..medium import MediumRef, medium_from
 from .common import CommonFields
+from .relief_errors import NO_ERRORS, ReliefErrors, check_together, made_profile
+from .relief_shapes import RELIEF_SHAPES, ReliefShape, SawtoothRelief
+
+MOST_PIECES = 64
+"""Pieces of a profile that the shader sums up by itself."""
 
 _MAX_LEVELS = 1_000_000
+_DEEPEST_WAVES = 100.0
 
 
 class KinoformSpec(CommonFields, frozen=True, tag_field="model", tag="kinoform"):
-    """A blazed phase relief, continuous or in steps.
+    """A thin phase relief in scalar theory: a sawtooth, continuous or in steps, or another shape.
 
     Attributes:
         levels: Number of levels; 0 is the continuous relief.
-        design_wavelength_nm: Vacuum wavelength in nm where the relief is one wave deep.
+        design_wavelength_nm: Vacuum wavelength in nm where the relief is `depth_waves` deep.
         relief: Medium of the relief, in air.
+        depth_waves: Phase depth at that wavelength for light along the normal, in waves.
+        angle_dependent: Whether the phase depth follows the direction of the light.
+        profile: Shape of one period.
+        errors: What the making of the relief does to it; None for nothing.
     """
 
     levels: int
     design_wavelength_nm: float
     relief: MediumRef
+    depth_waves: float = 1.0
+    angle_dependent: bool = True
+    profile: ReliefShape = field(default_factory=SawtoothRelief)
+    errors: ReliefErrors | None = None
 
     def __post_init__(self) -> None:
         """Check the levels, and that the relief has a depth at the design wavelength."""
@@ -38,7 +55,30 @@ class KinoformSpec(CommonFields, frozen=True, tag_field="model", tag="kinoform")
         if medium.index_at(self, "relief", design_nm) <= 1.0:
             rule = "must have an index above 1 at the design wavelength"
             raise FieldError("relief", rule, self.relief)
+        fields.number(self, "depth_waves", above=0.0, at_most=_DEEPEST_WAVES)
+        field_kinds.flag(self, "angle_dependent")
+        field_kinds.instance(self, "profile", *RELIEF_SHAPES)
+        if self.errors is not None:
+            field_kinds.instance(self, "errors", ReliefErrors)
+            check_together(self.profile, self.levels, self.errors)
+        else:
+            check_together(self.profile, self.levels, NO_ERRORS)
         self.check_common()
+
+    @property
+    def made_depth_waves(self) -> float:
+        """The phase depth with the error of the depth, in waves."""
+        return self.depth_waves * (1.0 + (self.errors or NO_ERRORS).depth_error)
+
+    @property
+    def has_formula(self) -> bool:
+        """Whether the shader can work the orders out by itself."""
+        profile = self.made_profile()
+        return not isinstance(profile, Segments | Steps) or profile.pieces <= MOST_PIECES
+
+    def made_profile(self) -> Profile:
+        """Make the profile, with the errors of its making except that of the depth."""
+        return made_profile(self.profile, self.levels, self.errors or NO_ERRORS)
 
     def listed_orders(self) -> tuple[int, ...]:
         """Give the orders that the model names by itself: none."""
@@ -57,10 +97,12 @@ class KinoformSpec(CommonFields, frozen=True, tag_field="model", tag="kinoform")
         del recorded_nm
         return tuple(Branch(order) for order in orders)
 
-    def model(self) -> EfficiencyModel:
+    def model(self) -> Kinoform:
         """Make the model of the core."""
         return Kinoform(
-            levels=self.levels,
+            profile=self.made_profile(),
             design_wavelength=float(nm_to_m(self.design_wavelength_nm)),
             relief=medium_from(self.relief),
+            depth=self.made_depth_waves,
+            angle_dependent=self.angle_dependent,
         )
