@@ -5,17 +5,38 @@
 #ifndef HOE_RANDOM_H
 #define HOE_RANDOM_H
 
-#define HOE_DIMENSIONS 4
+// What a number is for; all of them are independent at one hit.
+#define HOE_FOR_OBJECT 0
+#define HOE_FOR_REFERENCE 1
+#define HOE_FOR_TABLE 2
+#define HOE_FOR_HAZE 3
 
-// Uniform number in [0, 1) for this hit: of the source with number `source` (so that two sources
-// of one hologram draw independently), dimension 0 to HOE_DIMENSIONS - 1. Equal hits of one path
-// at one time differ by how many surfaces the path has crossed.
-float hoe_random(int source, int dimension)
+#define HOE_PURPOSES 4
+#define HOE_DIMENSIONS 8
+
+// What differs from hit to hit: point and time, and, for equal hits of one path at one time, how
+// many surfaces the path has crossed.
+float hoe_hit(output int crossed)
 {
-    int crossed = 0;
+    crossed = 0;
     getattribute("path:transparent_depth", crossed);
-    float hit = hashnoise(P, time);
-    return hashnoise(hit, (float)((crossed * 2 + source) * HOE_DIMENSIONS + dimension));
+    return hashnoise(P, time);
+}
+
+// Uniform number in [0, 1] of a hit, for one purpose, dimension 0 to HOE_DIMENSIONS - 1. Numbers of
+// different crossings, purposes and dimensions never share a stream.
+float hoe_drawn(float hit, int crossed, int purpose, int dimension)
+{
+    int stream = (crossed * HOE_PURPOSES + purpose) * HOE_DIMENSIONS + dimension;
+    return hashnoise(hit, (float)stream);
+}
+
+// The same for a caller that needs few numbers.
+float hoe_random(int purpose, int dimension)
+{
+    int crossed;
+    float hit = hoe_hit(crossed);
+    return hoe_drawn(hit, crossed, purpose, dimension);
 }
 
 #endif

@@ -110,8 +110,11 @@ class Outline(Choice):
 class EfficiencyModel(Choice):
     """How the light is shared among the orders."""
 
-    KINOFORM = "kinoform", 0, "Kinoform", "A blazed relief, continuous or in steps"
+    KINOFORM = "kinoform", 0, "Kinoform", "A thin relief, continuous or in steps"
     CONSTANT = "constant", 1, "Constant Shares", "The same share at every wavelength and angle"
+    KOGELNIK = "kogelnik", 2, "Volume Hologram", "Thick fringes in two-wave theory"
+    RCWA = "rcwa", 3, "Rigorous Grating", "Any layers, by rigorous coupled-wave analysis"
+    TABLE = "table", 4, "Table", "Shares from a file"
 
 
 class Side(Choice):

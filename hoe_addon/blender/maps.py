@@ -64,7 +64,7 @@ def prepare_map(
     if not source.terms:
         return None
     request = MapRequest(source, spec.surface, spec.pattern.wavelength_nm)
-    path, made = map_file(request, _own_folder(), progress)
+    path, made = map_file(request, own_folder(), progress)
     return PreparedMap(path, request.key, made)
 
 
@@ -154,8 +154,12 @@ def remove_map(material: bpy.types.Material) -> None:
     _drop_unused(bpy.data.images, image)
 
 
-def _own_folder() -> Path | None:
-    """The folder of this extension's own files; None where it runs as a plain package."""
+def own_folder() -> Path | None:
+    """Find the folder of this extension's own files.
+
+    Returns:
+        The folder; None where this runs as a plain package.
+    """
     package = (__package__ or "").rpartition(".")[0]
     try:
         return Path(bpy.utils.extension_path_user(package, path="maps", create=True))

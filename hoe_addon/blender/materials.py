@@ -22,6 +22,7 @@ from .following import Followed, drive, waves_of
 from .maps import prepare_map, update_map
 from .props import sync
 from .spectral import SpectralScene, use_wavelength
+from .tables import prepare_table
 
 
 def hologram_material(
@@ -44,20 +45,23 @@ def hologram_material(
         followed: Waves of its recording that follow an object, by role (``object``,
             ``reference``); they take the place of those of ``spec``.
         pack: Keep a map that the pattern may need inside the .blend.
-        progress: Told the share that is done, where such a map has to be made.
+        progress: Told the share that is done, where such a map, or a table of efficiencies, has
+            to be made.
 
     Returns:
         A new material.
 
     Raises:
         SpecError: A number is outside what the properties can hold.
-        HoeError: A map that the pattern needs cannot be made; nothing is left behind.
+        HoeError: A map that the pattern needs, or a table that the efficiencies need, cannot be
+            made; nothing is left behind.
     """
     sources = followed or {}
     waves = waves_of(sources)
-    values = hologram_sockets(spec, frame or Frame(), units_per_mm, waves)
     prepare_map(spec, waves, progress)
-    material = nodes.script_material(spec.name, hologram_shader(spec, waves), values)
+    table = prepare_table(spec, progress)
+    values = hologram_sockets(spec, frame or Frame(), units_per_mm, waves, table)
+    material = nodes.script_material(spec.name, hologram_shader(spec, waves, table), values)
     use_wavelength(material, spectral.group)
     drive(nodes.script_node(material), sources)
     update_map(material, spec, frame, units_per_mm, waves, pack=pack)

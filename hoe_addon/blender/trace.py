@@ -19,6 +19,7 @@ from ..core.ray_law import Status
 from ..core.shapes.tessellate import departure_from
 from ..core.units import m_to_mm, mm_to_m
 from ..model.element import element_mesh, element_shape, first_hit
+from ..model.evaluate import followed_frequency
 from ..model.hologram import HologramSpec
 from ..model.mesh_surface import MeshSurface
 from ..model.rays import RayTable, TraceResult
@@ -45,6 +46,7 @@ from .maps import update_map
 from .osl import compiled, require_osl
 from .render import COMBINED, Progress, render_layers
 from .render_settings import carry_time_on_rows, set_up
+from .tables import prepare_table
 from .temporary import temporary_scene
 
 _ROWS = 1023
@@ -82,7 +84,7 @@ def trace_cycles(
         status=np.full(count, int(Status.MISS)),
         efficiency=np.full(count, np.nan),
     )
-    parts = list(_parts(rays))
+    parts = list(_parts(rays, followed_frequency(spec, rays)))
     with _probe_scene(spec) as probe:
         for done, (branch, chosen) in enumerate(parts, start=1):
             probe.load(_started_near(spec, rays.part(chosen)))
@@ -129,18 +131,22 @@ def _nearest_mm(
     return np.maximum(_NEAREST_MM, 2.0 * sagitta / cosine)
 
 
-def _parts(rays: RayTable) -> Iterator[tuple[Branch, NDArray[np.int64]]]:
+def _parts(
+    rays: RayTable, frequency: NDArray[np.float64]
+) -> Iterator[tuple[Branch, NDArray[np.int64]]]:
     """Rays of one branch, few enough for one render, by rising wavelength.
 
     Ray time finds its wavelength by interpolation between neighbours: sorted, a rounding of time
     moves the wavelength by next to nothing.
     """
-    branches = sorted(set(zip(rays.order.tolist(), rays.reflected.tolist(), strict=True)))
-    for order, reflected in branches:
-        of_branch = np.flatnonzero((rays.order == order) & (rays.reflected == reflected))
+    named = zip(rays.order.tolist(), rays.reflected.tolist(), frequency.tolist(), strict=True)
+    for order, reflected, multiple in sorted(set(named)):
+        this = (rays.order == order) & (rays.reflected == reflected) & (frequency == multiple)
+        of_branch = np.flatnonzero(this)
         of_branch = of_branch[np.argsort(rays.wavelength_nm[of_branch], kind="stable")]
         for first in range(0, len(of_branch), _ROWS):
-            yield Branch(order, reflected=reflected), of_branch[first : first + _ROWS]
+            branch = Branch(order, reflected=reflected, frequency=multiple)
+            yield branch, of_branch[first : first + _ROWS]
 
 
 def _read_back(
@@ -154,7 +160,7 @@ def _read_back(
     result.status[chosen] = np.select((missed, gone), (int(Status.MISS), int(Status.EVANESCENT)), 0)
     result.direction[chosen[met]] = answer[met] / length[met, None]
 
-    weighted = probe.render(first_hit_only(one_order_shader(probe.spec, branch)))
+    weighted = probe.render(first_hit_only(one_order_shader(probe.spec, branch, probe.table)))
     weight = np.linalg.norm(weighted, axis=1)
     result.efficiency[chosen[~missed]] = weight[~missed]
 
@@ -167,6 +173,7 @@ class _Probe:
 
     def __init__(self, spec: HologramSpec, scene: bpy.types.Scene) -> None:
         self.spec = spec
+        self.table = prepare_table(spec, backward=False)
         self.scene = scene
         self._rows = 0
         self._wavelengths = wavelength_shader((500.0, 500.0))
@@ -224,7 +231,7 @@ class _Probe:
     def _sockets(self, source: ShaderSource) -> dict[str, nodes.SocketValue]:
         """The document's numbers for those sockets that this specialisation has."""
         present = nodes.socket_names(source)
-        values = hologram_sockets(self.spec, Frame())
+        values = hologram_sockets(self.spec, Frame(), table=self.table)
         return {name: value for name, value in values.items() if name in present}
 
 

@@ -16,7 +16,18 @@ from ..core.errors import CancelledError, HoeError
 from .interrupt import EXIT_INTERRUPTED
 from .parser import Parser
 
-COMMANDS = ("presets", "render", "eyebox", "trace", "efficiency", "map", "bench", "demo")
+COMMANDS = (
+    "presets",
+    "render",
+    "eyebox",
+    "trace",
+    "efficiency",
+    "check",
+    "bake",
+    "map",
+    "bench",
+    "demo",
+)
 """Modules of the commands, in the order of ``--help``."""
 
 EXIT_OK = 0

@@ -1,27 +1,37 @@
 # SPDX-FileCopyrightText: hoe_addon contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""``bench``: how fast our surfaces render beside Cycles' own glass."""
+"""``bench``: how fast our surfaces render, and how soon efficiencies are there."""
 
 import argparse
 import json
 import math
 import re
-from dataclasses import asdict
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
+from .bench_rcwa import RcwaSpeed, measure_rcwa, rcwa_lines
 from .parser import parse_number
 
 if TYPE_CHECKING:
     from ..blender.bench import Benchmark
+    from ..blender.bench_tables import LookupSpeed
 
 _DESCRIPTION = """\
-Render two parallel faces in one and the same view with Cycles' Glass (without roughness, under
+Three measurements, of which --only picks some.
+surfaces: two parallel faces in one and the same view with Cycles' Glass (without roughness, under
 OSL), with our dielectric, and with a hologram of 1, 3 and 9 orders, each in turn and several times
 over. Prints samples per second by the clock (wall) and by processor time of all threads (cpu), and
 the ratio to the glass by processor time: the median of the rounds and the distance of their
 quartiles (spread). Scene set-up is left out: each number is the slope between renders with few and
 with many samples.
+rigorous: tables of 31 wavelengths x 64 angles x s and p by rigorous coupled waves, and the ratio to
+a plain loop over single calls.
+lookups: one hologram by formula, by an interpolated table, and by drawing from the table: time of a
+sample, its deviation, the time to the same error, and whether the mean pictures are alike.
 """
+_PARTS = ("surfaces", "rigorous", "lookups")
 _SECONDS = (1.0, 3600.0)
 _PIXELS = (4, 4096)
 
@@ -50,6 +60,13 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
         default=60.0,
         help="about how long the measured renders take together (default: 60)",
     )
+    add(
+        "--only",
+        metavar="LIST",
+        type=_parts,
+        default=_PARTS,
+        help=f"what to measure, some of {','.join(_PARTS)} (default: all)",
+    )
     add("--size", metavar="WxH", type=_size, default=(256, 256), help="pixels (default: 256x256)")
     parser.set_defaults(run=run)
 
@@ -74,31 +91,92 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _measured(args: argparse.Namespace) -> "Benchmark":
+def _measured(args: argparse.Namespace) -> "_Results":
+    surfaces = rigorous = lookups = None
+    if "surfaces" in args.only:
+        from ..blender.bench import run_benchmark
+
+        with _bar("surfaces") as show:
+            surfaces = run_benchmark(args.seconds, args.size, show)
+    if "rigorous" in args.only:
+        with _bar("rigorous") as show:
+            rigorous = measure_rcwa(show)
+    if "lookups" in args.only:
+        from ..blender.bench_tables import compare_lookups
+
+        with _bar("lookups") as show:
+            lookups = compare_lookups(progress=show)
+    return _Results(surfaces, rigorous, lookups)
+
+
+@contextmanager
+def _bar(name: str) -> Iterator[Callable[[float], None]]:
     from tqdm import tqdm
 
-    from ..blender.bench import run_benchmark
-
-    with tqdm(total=1.0, desc="bench", disable=None, bar_format="{l_bar}{bar}| {elapsed}") as bar:
+    with tqdm(total=1.0, desc=name, disable=None, bar_format="{l_bar}{bar}| {elapsed}") as bar:
 
         def show(done: float) -> None:
             bar.update(done - bar.n)
 
-        return run_benchmark(args.seconds, args.size, show)
+        yield show
 
 
-def _json(result: "Benchmark") -> str:
-    return json.dumps(asdict(result), indent=2) + "\n"
+@dataclass(frozen=True)
+class _Results:
+    """What was measured; None where it was not asked for."""
+
+    surfaces: "Benchmark | None"
+    rigorous: list[RcwaSpeed] | None
+    lookups: "tuple[LookupSpeed, ...] | None"
 
 
-def _table(result: "Benchmark") -> str:
+def _json(result: _Results) -> str:
+    document: dict[str, Any] = asdict(result.surfaces) if result.surfaces else {}
+    if result.rigorous:
+        document["rigorous"] = [asdict(speed) | {"ratio": speed.ratio} for speed in result.rigorous]
+    if result.lookups:
+        document["lookups"] = [asdict(speed) for speed in result.lookups]
+    return json.dumps(document, indent=2) + "\n"
+
+
+def _table(result: _Results) -> str:
+    blocks: list[list[str]] = []
+    if result.surfaces:
+        blocks.append(_surface_lines(result.surfaces))
+    if result.rigorous:
+        blocks.append(rcwa_lines(result.rigorous))
+    if result.lookups:
+        blocks.append(_lookup_lines(result.lookups))
+    return "\n\n".join("\n".join(lines) for lines in blocks) + "\n"
+
+
+def _surface_lines(result: "Benchmark") -> list[str]:
     lines = [f"{'':12}  {'wall 1/s':>10}  {'cpu 1/s':>10}  {'ratio':>6}  {'spread':>6}"]
     lines += [
         f"{speed.name:12}  {speed.samples_per_second:10.3g}  {speed.samples_per_cpu_second:10.3g}"
         f"  {speed.ratio:6.3f}  {speed.spread:6.3f}"
         for speed in result.speeds
     ]
-    return "\n".join(lines) + "\n"
+    return lines
+
+
+def _lookup_lines(speeds: "Sequence[LookupSpeed]") -> list[str]:
+    heads = ("us/sample", "deviation", "time to error", "difference/sigma")
+    lines = ["efficiencies in the shader, 6 orders", f"{'':12}  {'  '.join(heads)}"]
+    lines += [
+        f"{speed.form:12}  {speed.microseconds:9.2f}  {speed.deviation:9.3f}"
+        f"  {speed.time_to_error:13.2f}  {speed.difference:16.2f}"
+        for speed in speeds
+    ]
+    return lines
+
+
+def _parts(text: str) -> tuple[str, ...]:
+    asked = tuple(text.split(","))
+    wrong = [part for part in asked if part not in _PARTS]
+    if wrong:
+        raise argparse.ArgumentTypeError(f"must be some of {','.join(_PARTS)}, got {wrong[0]!r}")
+    return asked
 
 
 def _seconds(text: str) -> float:

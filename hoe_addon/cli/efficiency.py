@@ -17,9 +17,10 @@ Write the share of the incident power that each order gets, transmitted (T) and 
 The angles are those of the incident ray in its own medium: theta from the surface normal, phi the
 azimuth of its direction of travel from +x toward +y. The ray meets the centre of the element. An
 evanescent order has exactly 0. Every order asked for gets the value of the efficiency model; the
-document's "orders" only limit what a picture traces.
+document's "orders" only limit what a picture traces. An order of a multiplexed hologram gets the
+sum over its exposures. Scalar models give the same for every polarisation.
 """
-_RIGHT_ANGLE_DEG = 90.0
+RIGHT_ANGLE_DEG = 90.0
 _BLOCK = 10_000
 """Directions looked at together: enough for numpy, little memory."""
 
@@ -46,6 +47,12 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
         default="back",
         help="side that the light comes from, default back (z < 0)",
     )
+    add(
+        "--polarization",
+        choices=("s", "p", "u"),
+        default="u",
+        help="s (electric field across the plane of incidence), p (in it) or u, the mean (default)",
+    )
     add("--out", metavar="OUT.csv", required=True, help="file to write")
     parser.set_defaults(run=run)
 
@@ -66,7 +73,7 @@ def run(args: argparse.Namespace) -> int:
     for wavelength_nm in args.wavelengths:
         fields.wavelength_value("--wavelengths", wavelength_nm)
     for theta in args.theta:
-        if abs(theta) >= _RIGHT_ANGLE_DEG:
+        if abs(theta) >= RIGHT_ANGLE_DEG:
             raise HoeError(f"--theta: must be between -90 and 90, got {theta!r}")
     spec = load_hologram(args.hologram)
     write_text(args.out, _rows(args, spec))
@@ -78,10 +85,12 @@ def _rows(args: argparse.Namespace, spec: Any) -> Iterator[str]:
     import numpy as np
     from tqdm import tqdm
 
+    from ..core.efficiency import Polarization
     from ..model.evaluate import efficiencies, incident_direction
     from ..model.reading import naming
 
     yield HEADER
+    polarization = Polarization(args.polarization)
     block = max(1, _BLOCK // len(args.phi))
     starts = range(0, len(args.theta), block)
     for wavelength_nm in tqdm(args.wavelengths, desc="efficiency", unit="nm", disable=None):
@@ -89,7 +98,7 @@ def _rows(args: argparse.Namespace, spec: Any) -> Iterator[str]:
             grid = np.meshgrid(thetas, args.phi, indexing="ij")
             direction = incident_direction(*grid, from_front=args.side == "front")
             with naming(args.hologram):
-                shares = efficiencies(spec, direction, wavelength_nm, args.orders)
+                shares = efficiencies(spec, direction, wavelength_nm, args.orders, polarization)
             angles = product(thetas, args.phi)
             of_angles = shares.reshape(-1, *shares.shape[2:]).tolist()
             for (theta, phi), of_orders in zip(angles, of_angles, strict=True):

@@ -22,7 +22,7 @@ from .device_parts import (
     RoomSpec,
     SourceSpec,
 )
-from .efficiency import EFFICIENCIES, EfficiencySpec, settle_orders
+from .efficiency import EFFICIENCIES, EfficiencySpec, check_fits, settle_orders
 from .field_error import FieldError
 from .hologram import HologramSpec, Orders, SideMedia
 from .medium import MediumRef
@@ -109,8 +109,10 @@ class PatchSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         fields.vector(self, "center_mm", 2)
         fields.vector(self, "size_mm", 2, above=0.0)
         field_kinds.instance(self, "efficiency", *EFFICIENCIES)
-        pattern.check(self, PlaneSurface(size_mm=self.size_mm))
+        surface = PlaneSurface(size_mm=self.size_mm)
+        pattern.check(self, surface)
         settle_orders(self, self.efficiency)
+        check_fits(self.efficiency, pattern.pattern_of(self), surface)
 
     def hologram(self, guide: GuideSpec) -> HologramSpec:
         """Give the patch as a hologram of its own.

@@ -87,6 +87,9 @@ def _index(spec: HologramSpec, side: str, wavelength: FloatArray) -> FloatArray:
 def trace(spec: HologramSpec, rays: RayTable) -> TraceResult:
     """Send rays through a hologram, each into the one branch that it names.
 
+    In a multiplexed hologram an order has a branch for each exposure: a ray follows that which
+    gives it the most light.
+
     Args:
         spec: The hologram, in its own frame.
         rays: Rays in its frame; with extended sources each meets the wave of a point of its own,
@@ -110,7 +113,7 @@ def trace(spec: HologramSpec, rays: RayTable) -> TraceResult:
         set(zip(rays.order.tolist(), rays.reflected.tolist(), strict=True))
     ):
         chosen = np.flatnonzero(met & (rays.order == order) & (rays.reflected == reflected))
-        ways = (Branch(order, reflected=reflected),)
+        ways = _of_order(spec, order, reflected=reflected)
         out = fan(
             spec,
             hit_mm[chosen],
@@ -119,10 +122,45 @@ def trace(spec: HologramSpec, rays: RayTable) -> TraceResult:
             ways,
             draws[chosen],
         )
-        direction[chosen] = out.directions[:, 0]
-        status[chosen] = out.status[:, 0]
-        efficiency[chosen] = out.weights[:, 0]
+        every = np.arange(len(chosen))
+        best = np.argmax(out.weights[:, : len(ways)], axis=1)
+        direction[chosen] = out.directions[every, best]
+        status[chosen] = out.status[every, best]
+        efficiency[chosen] = out.weights[every, best]
     return TraceResult(hit_mm, direction, status, efficiency)
+
+
+def followed_frequency(spec: HologramSpec, rays: RayTable) -> FloatArray:
+    """Tell which exposure each ray follows in `trace`: that which gives it the most light.
+
+    Args:
+        spec: The hologram.
+        rays: Rays in its frame.
+
+    Returns:
+        `Branch.frequency` of the branch, shape ``(n,)``; 1 unless the hologram is multiplexed.
+    """
+    found = np.ones(len(rays))
+    for order, reflected in set(zip(rays.order.tolist(), rays.reflected.tolist(), strict=True)):
+        ways = _of_order(spec, order, reflected=reflected)
+        if len(ways) == 1:
+            continue
+        distance, hit_mm = first_hit(spec, rays.origin_mm, rays.direction)
+        asked = np.isfinite(distance) & (rays.order == order) & (rays.reflected == reflected)
+        chosen = np.flatnonzero(asked)
+        nm = rays.wavelength_nm[chosen]
+        out = fan(spec, hit_mm[chosen], rays.direction[chosen], nm, ways)
+        best = np.argmax(out.weights[:, : len(ways)], axis=1)
+        found[chosen] = np.asarray([way.frequency for way in ways])[best]
+    return found
+
+
+def _of_order(spec: HologramSpec, order: int, *, reflected: bool) -> tuple[Branch, ...]:
+    """The ways out of one order: one for each exposure of a multiplexed hologram."""
+    first = Branch(order, reflected=reflected)
+    listed = spec.efficiency.branches((order,), spec.pattern.wavelength_nm)
+    further = (way for way in listed if way.order == order and way.reflected == reflected)
+    return tuple(dict.fromkeys((first, *further)))
 
 
 def centre_mm(spec: HologramSpec) -> FloatArray:
@@ -179,12 +217,15 @@ def efficiencies(
         polarization: Of the light.
 
     Returns:
-        Shares, shape ``(..., K, 2)``: transmitted, reflected; exactly 0 where evanescent.
+        Shares, shape ``(..., K, 2)``: transmitted, reflected; exactly 0 where evanescent. Of a
+        multiplexed hologram an order is the sum over its exposures.
 
     Raises:
         SpecError: If a medium has no index at one of the wavelengths.
     """
-    ways = [Branch(order, reflected=side) for order in orders for side in (False, True)]
+    groups = [_of_order(spec, order, reflected=side) for order in orders for side in (False, True)]
+    ways = [way for group in groups for way in group]
     out = fan(spec, centre_mm(spec), direction, wavelength_nm, ways, polarization=polarization)
-    shares = out.weights[..., : len(ways)]
+    starts = np.cumsum([0, *(len(group) for group in groups[:-1])])
+    shares = np.add.reduceat(out.weights[..., : len(ways)], starts, axis=-1)
     return shares.reshape(*shares.shape[:-1], len(orders), 2)

@@ -8,7 +8,7 @@ from msgspec import Meta, Struct
 
 from . import field_kinds, medium, pattern
 from .characteristic import CharacteristicSpec
-from .efficiency import EFFICIENCIES, EfficiencySpec, settle_orders
+from .efficiency import EFFICIENCIES, EfficiencySpec, check_fits, settle_orders
 from .field_error import FieldError
 from .medium import MediumRef
 from .pattern import PatternSpec, pattern_of
@@ -72,6 +72,7 @@ class HologramSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
             except FieldError as error:
                 raise error.inside("media") from error
         settle_orders(self, self.efficiency)
+        check_fits(self.efficiency, self.pattern, self.surface)
 
     @property
     def pattern(self) -> PatternSpec:

@@ -56,8 +56,9 @@ def known_names(kind: type[msgspec.Struct], document: object, parts: Sequence[Pa
             return [str(struct.tag) for struct in _structs(info)]
         info = _inside(chosen or info, part)
         here = _item(here, part)
-    if isinstance(info, inspect.LiteralType):
-        return [str(value) for value in info.values]
+    choices = [member for member in _members(info) if isinstance(member, inspect.LiteralType)]
+    if choices:
+        return [str(value) for member in choices for value in member.values]
     chosen = _struct_for(info, here)
     if chosen is None:
         return []

@@ -26,7 +26,9 @@ _WAVELENGTH = dict(zip(("minimum", "maximum"), fields.WAVELENGTH_RANGE_NM, stric
 _POSITIVE = {"exclusiveMinimum": 0}
 _MEDIA_FIELDS = ("back", "front", "medium", "outside", "relief")
 _POSITIVE_FIELDS = (
+    "depth_waves",
     "thickness_mm",
+    "depth_um",
     "relief_mm",
     "fwhm_nm",
     "focal_length_mm",
@@ -49,6 +51,8 @@ _SURFACE_RULES: dict[tuple[str, str], dict[str, Any]] = {
     ("ConicOptic", "radius_mm"): {"not": {"const": 0}},
     ("AsphereSurface", "coefficients"): {"maxItems": MOST_COEFFICIENTS},
 }
+_NAMED_OTHERWISE = {("KogelnikSpec", "index"): "medium"}
+"""Struct and field, and the name whose rules it has."""
 _SHARES = {
     "propertyNames": {"pattern": "^(0|-?[1-9][0-9]?|-?100)$"},
     "additionalProperties": {"type": "number", "minimum": 0, "maximum": 1},
@@ -105,7 +109,7 @@ def _schema(name: str, *kinds: type[msgspec.Struct]) -> dict[str, Any]:
             elif (struct, field) in _SURFACE_RULES:
                 rule |= _SURFACE_RULES[struct, field]
             else:
-                _add_rules(field, rule)
+                _add_rules(_NAMED_OTHERWISE.get((struct, field)) or field, rule)
     return {"$schema": _DRAFT, "$id": f"{name}.schema.json", **made}
 
 

@@ -91,6 +91,26 @@ def formula_function(formula: Formula) -> str:
     )
 
 
+def value_function(name: str, formula: Formula) -> str:
+    """Write a formula itself as an OSL function.
+
+    Args:
+        name: Name of the function.
+        formula: The formula.
+
+    Returns:
+        The text of ``name(x, y)``, which returns 0 where the formula has no value.
+    """
+    writer = _Writer(formula.graph)
+    (value,) = writer.write((formula.value,))
+    lines = "".join(f"    {line}\n" for line in writer.lines)
+    return (
+        f"float {name}(float x, float y)\n"
+        f"{{\n    int ok = 1;\n    float r = hoe_hypot(x, y);\n{lines}"
+        f"    return ok && isfinite({value}) ? {value} : 0.0;\n}}\n"
+    )
+
+
 class _Writer:
     """Writes operations as statements, one variable each."""
 

@@ -12,7 +12,7 @@ from ..core.arrays import FloatArray
 from ..core.efficiency.table import EfficiencyTable
 from ..core.orders import REFLECTED_ZERO, TRANSMITTED_ZERO, Branch
 from ..model.hologram import HologramSpec
-from .efficiency import EfficiencyPart, efficiency_part
+from .efficiency import efficiency_part, efficiency_sockets
 from .haze import haze_definitions, haze_sockets
 from .map import map_part
 from .medium import medium_sockets
@@ -60,8 +60,10 @@ def hologram_shader(
     """
     branches = _branches(spec)
     folds = spec.efficiency.total_internal_reflection and TRANSMITTED_ZERO in branches
-    unrecorded = _unrecorded(spec) | haze_definitions(spec.efficiency.haze)
-    return _shader(spec, branches, folds=folds, more=unrecorded, followed=followed, table=table)
+    unrecorded = _unrecorded(spec)
+    return _shader(
+        spec, branches, folds=folds, unrecorded=unrecorded, followed=followed, table=table
+    )
 
 
 def one_order_shader(
@@ -81,7 +83,7 @@ def one_order_shader(
     """
     folds = spec.efficiency.total_internal_reflection and branch == REFLECTED_ZERO
     unrecorded = _unrecorded(spec, branch)
-    return _shader(spec, (branch,), folds=folds, more=unrecorded, forward=True, table=table)
+    return _shader(spec, (branch,), folds=folds, unrecorded=unrecorded, forward=True, table=table)
 
 
 def unit_efficiency_shader(spec: HologramSpec, branch: Branch) -> ShaderSource:
@@ -99,6 +101,7 @@ def hologram_sockets(
     frame: Frame,
     units_per_mm: float = 1.0,
     followed: Followed | None = None,
+    table: EfficiencyTable | None = None,
 ) -> SocketValues:
     """The numbers of the document as socket values.
 
@@ -107,6 +110,7 @@ def hologram_sockets(
         frame: Where its recording's frame lies in the object.
         units_per_mm: Scene units in one mm.
         followed: Waves of its recording that follow an object, in the object's frame.
+        table: Its efficiencies, where its model uses a table.
 
     Returns:
         Value by socket identifier; the wavelength comes from another node, and where a followed
@@ -122,7 +126,8 @@ def hologram_sockets(
     values |= surface_part(spec.surface, units_per_mm).sockets
     values |= medium_sockets("back", spec.media.back)
     values |= medium_sockets("front", spec.media.front)
-    values |= efficiency_part(spec, _branches(spec)).sockets
+    values |= efficiency_sockets(spec, _branches(spec), units_per_mm, table)
+    values |= haze_sockets(spec.efficiency.haze)
     return values
 
 
@@ -134,19 +139,22 @@ def _shader(
     unrecorded: Mapping[str, str],
     followed: Followed | None = None,
     forward: bool = False,
+    table: EfficiencyTable | None = None,
 ) -> ShaderSource:
     needed = (*branches, TRANSMITTED_ZERO) if folds else tuple(branches)
-    part = efficiency_part(spec, needed)
+    part = efficiency_part(spec, needed, table, forward=forward)
     definitions = {
         "HOE_EFFICIENCY_PARAMETERS": part.parameters,
         "HOE_PREPARE_EFFICIENCY": part.prepare,
-        "HOE_EACH_ORDER(X)": _each_order(branches, part.shares),
+        "HOE_EACH_ORDER(X)": part.drawn or _each_order(branches, part.shares),
     }
     if forward:
         definitions["HOE_FORWARD"] = "1"
+    else:
+        definitions |= haze_definitions(spec.efficiency.haze)
     if folds:
         definitions["HOE_TOTAL_INTERNAL_REFLECTION"] = "1"
-        definitions["HOE_ZERO_ORDER_TRANSMITTED"] = part.shares[TRANSMITTED_ZERO]
+        definitions["HOE_ZERO_ORDER_TRANSMITTED"] = part.shares.get(TRANSMITTED_ZERO, "0.0")
     return _assembled(spec, definitions, unrecorded, followed, part.functions)
 
 

@@ -10,7 +10,7 @@ from ..core.gradient_map import RECORDED_SHARE
 from ..model.characteristic import CharacteristicSpec
 from ..model.map_source import MapSource
 from ..model.surface import SurfaceSpec
-from ..model.waves import WaveSpec
+from ..model.waves import WAVES, WaveSpec
 from .part import ShaderPart, parameter
 from .source import ShaderSource, specialised
 from .surface import surface_part
@@ -51,12 +51,14 @@ def map_part(source: MapSource) -> ShaderPart:
     recorded = parameter(
         "float", RECORDED_SOCKET, "0.0", "Map Recorded", "1 where the map is recorded"
     )
+    # Where the map holds an object wave, this variable waits with the reference wave in it.
+    waves = any(sign > 0 and isinstance(term, WAVES) for sign, term in source.terms)
     return ShaderPart(
         parameters=f"{gradient} {recorded}",
         code=(
             f"gradient += {GRADIENT_SOCKET}; "
             f"if ({RECORDED_SOCKET} < {RECORDED_SHARE} || {GRADIENT_SOCKET} == {_MISSING}) "
-            f"recorded = 0;"
+            f"recorded = 0;{' object_wave += gradient;' if waves else ''}"
         ),
     )
 

@@ -39,14 +39,14 @@ def pattern_part(
     """
     stated = ShaderPart(sockets={"recording_wavelength_nm": pattern.wavelength_nm})
     if isinstance(pattern, RecordingSpec):
-        return joined(
-            (
-                stated,
-                _wave("object", "+", pattern.object, units_per_mm, followed or {}),
-                ShaderPart(code="object_wave = gradient;"),
-                _wave("reference", "-", pattern.reference, units_per_mm, followed or {}),
-            )
+        both = (
+            _wave("object", "+", pattern.object, units_per_mm, followed or {}),
+            _wave("reference", "-", pattern.reference, units_per_mm, followed or {}),
         )
+        if both[0].map.terms:
+            # The map comes last, and adds the object wave: see `map_part`.
+            return joined((stated, *both, ShaderPart(code="object_wave = -gradient;")))
+        return joined((stated, both[0], ShaderPart(code="object_wave = gradient;"), both[1]))
     return joined((stated, characteristic_part(pattern, units_per_mm, reach_mm)))
 
 

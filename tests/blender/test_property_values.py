@@ -12,7 +12,7 @@ from hoe_addon.blender import ids
 from hoe_addon.blender.props import values
 from hoe_addon.core.media import CATALOGUE
 from hoe_addon.model.characteristic import CHARACTERISTICS
-from hoe_addon.model.efficiency import ConstantSpec, KinoformSpec
+from hoe_addon.model.efficiency import EFFICIENCIES
 from hoe_addon.model.surface import SURFACES
 from hoe_addon.model.waves import WAVES
 
@@ -45,7 +45,7 @@ def test_choices_are_those_of_the_documents() -> None:
     assert {kind.value for kind in ids.WaveKind} == tags(*WAVES)
     assert {kind.value for kind in ids.CharacteristicKind} == tags(*CHARACTERISTICS)
     assert {shape.value for shape in ids.Shape} == tags(*SURFACES)
-    assert {model.value for model in ids.EfficiencyModel} == tags(KinoformSpec, ConstantSpec)
+    assert {model.value for model in ids.EfficiencyModel} == tags(*EFFICIENCIES)
     assert [name for name, *_ in ids.catalogue_items()] == list(CATALOGUE)
 
 

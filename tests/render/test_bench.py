@@ -13,7 +13,7 @@ from hoe_addon.cli import main
 
 pytestmark = pytest.mark.render
 
-QUICK = ("bench", "--seconds", "2", "--size", "48x32")
+QUICK = ("bench", "--seconds", "2", "--size", "48x32", "--only", "surfaces")
 
 
 def test_json_names_every_case_and_its_ratio(
@@ -31,6 +31,20 @@ def test_json_names_every_case_and_its_ratio(
     assert all(speed["samples_per_second"] > 1e3 for speed in speeds.values())
 
 
+LONGEST_S = {"1 layer": 15.0, "20 slices, slanted": 90.0}
+"""What a rigorous table may take on two cores, in plane of incidence."""
+
+
+@pytest.mark.slow
+def test_rigorous_tables_are_ready_in_time(tmp_path: Path) -> None:
+    path = tmp_path / "speed.json"
+    assert main(["bench", "--only", "rigorous", "--json", str(path)]) == 0
+    speeds = {each["name"]: each for each in json.loads(path.read_text("utf-8"))["rigorous"]}
+    for name, longest in LONGEST_S.items():
+        assert speeds[f"{name}, in plane"]["seconds"] < longest
+        assert speeds[f"{name}, in plane"]["ratio"] > 1.0
+
+
 def test_nothing_stays_behind() -> None:
     kinds = ("scenes", "objects", "meshes", "materials", "worlds", "texts", "node_groups")
     before = {kind: len(getattr(bpy.data, kind)) for kind in kinds}
@@ -46,6 +60,7 @@ def test_nothing_stays_behind() -> None:
     [
         ("--size=0x4", "--size: must be WxH, each from 4 to 4096 pixels, got '0x4'"),
         ("--size=64", "--size: must be WxH, each from 4 to 4096 pixels, got '64'"),
+        ("--only=glass", "--only: must be some of surfaces,rigorous,lookups, got 'glass'"),
         ("--seconds=nan", "--seconds: must be from 1 to 3600, got 'nan'"),
         ("--json=/none/x.json", "/none/x.json: cannot be written: No such file or directory"),
     ],

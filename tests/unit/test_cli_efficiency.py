@@ -204,3 +204,57 @@ def test_a_medium_without_an_index_is_named(
     expected = f"hoe: error: {path}: media.front: medium fused silica: has no index of at least 1"
     assert capsys.readouterr().err.startswith(expected)
     assert list(tmp_path.iterdir()) == [path]
+
+
+RIGOROUS = {
+    "model": "rcwa",
+    "profile": {"shape": "binary", "depth_um": 0.4},
+    "ridge": 1.5,
+    "harmonics": 21,
+}
+
+
+def test_polarisations(tmp_path: Path) -> None:
+    path = grating(tmp_path, efficiency=RIGOROUS)
+    arguments = ("--wavelengths=532", "--orders=-1:1", "--theta=20", "--phi=0,40")
+    found = {
+        letter: shares(rows(tmp_path, path, *arguments, f"--polarization={letter}"))
+        for letter in "spu"
+    }
+    assert found["u"] == shares(rows(tmp_path, path, *arguments))
+    for key, share in found["u"].items():
+        assert share == pytest.approx(0.5 * (found["s"][key] + found["p"][key]), abs=1e-15)
+    assert any(abs(share - found["p"][key]) > 1e-3 for key, share in found["s"].items())
+
+
+@pytest.mark.parametrize("letter", ["s", "p", "u"])
+def test_scalar_models_know_no_polarisation(tmp_path: Path, letter: str) -> None:
+    arguments = ("--wavelengths=450", "--orders=-1:1", "--theta=20")
+    plain = rows(tmp_path, LENS, *arguments)
+    assert rows(tmp_path, LENS, *arguments, f"--polarization={letter}") == plain
+
+
+def test_exposures_of_a_multiplexed_hologram_are_summed(tmp_path: Path) -> None:
+    """Far from each other, each peak is that of its own exposure alone."""
+    beam = {"kind": "plane", "index": 1.5}
+    recording = {
+        "wavelength_nm": 532,
+        "object": beam | {"direction": [0, 0, -1]},
+        "reference": beam | {"direction": [0, 0, 1]},
+    }
+    single = {"model": "kogelnik", "thickness_um": 12, "index": 1.5, "modulation": 0.02}
+    both = single | {"exposures": [{"wavelength_nm": 633, "modulation": 0.02}]}
+    given = {"media": {"back": 1.5, "front": 1.5}, "recording": recording}
+    arguments = ("--wavelengths=532,633", "--orders=1")
+    alone = shares(rows(tmp_path, element(tmp_path, efficiency=single, orders=[0, 1], **given),
+                        *arguments))  # fmt: skip
+    together = shares(rows(tmp_path, element(tmp_path, efficiency=both, orders=[0, 1], **given),
+                           *arguments))  # fmt: skip
+    green, red = (
+        sum(share for key, share in together.items() if key[0] == colour)
+        for colour in ("532.0", "633.0")
+    )
+    first = math.tanh(math.pi * 0.02 * 12 / 0.532) ** 2
+    assert sum(s for key, s in alone.items() if key[0] == "532.0") == pytest.approx(first, abs=5e-3)
+    assert green == pytest.approx(first, abs=5e-3)
+    assert red == pytest.approx(math.tanh(math.pi * 0.02 * 12 / 0.633) ** 2, abs=2e-2)

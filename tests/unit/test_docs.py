@@ -14,14 +14,15 @@ import pytest
 
 from hoe_addon.model.characteristic import CHARACTERISTICS
 from hoe_addon.model.document import device_from, hologram_from, to_document
+from hoe_addon.model.efficiency import EFFICIENCIES
 from hoe_addon.model.scene_parts import ElementSpec
 from hoe_addon.model.surface import SURFACES
 from hoe_addon.model.waves import WAVES
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = (ROOT / "README.md", ROOT / "docs" / "holograms.md", ROOT / "docs" / "scenes.md")
+PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
 LENS = json.loads((ROOT / "tests" / "documents" / "lens.json").read_text(encoding="utf-8"))
-FILES_NEEDED = {"sampled"}
+FILES_NEEDED = {"sampled", "table"}
 """Kinds that name a file, which a page does not have."""
 
 
@@ -37,7 +38,7 @@ def blocks() -> list[Any]:
     for page in PAGES:
         for text in re.findall(r"^```json\n(.*?)^```", page.read_text("utf-8"), re.M | re.S):
             part = json.loads(text)
-            name = part.get("kind") or part.get("shape") or part["name"]
+            name = next(part[key] for key in ("kind", "shape", "model", "name") if key in part)
             found.append(pytest.param(part, id=f"{page.stem}-{len(found)}-{name}"))
     return found
 
@@ -60,6 +61,10 @@ def whole(part: dict[str, Any]) -> dict[str, Any]:
     elif part.get("kind") in tags(*CHARACTERISTICS):
         document["characteristic"] = part
         del document["recording"]
+    elif "model" in part:
+        document["efficiency"] = part
+        orders = part.get("table", {"T": dict.fromkeys(document["orders"], 0)})
+        document["orders"] = sorted({int(order) for side in orders.values() for order in side})
     elif "schema" in part:
         document = part
     else:
@@ -88,9 +93,11 @@ def test_every_kind_is_documented() -> None:
         e["kind"] for part in shown for e in (part, *part.get("elements", ())) if "kind" in e
     }
     assert tags(*ELEMENTS) <= elements
-    page = (ROOT / "docs" / "holograms.md").read_text(encoding="utf-8")
+    models = {part.get("model") or part.get("efficiency", {}).get("model") for part in shown}
+    assert tags(*EFFICIENCIES) - FILES_NEEDED <= models
+    page = "".join(path.read_text(encoding="utf-8") for path in PAGES)
     for kind in FILES_NEEDED:
-        assert f'{{"kind": "{kind}"' in page
+        assert re.search(rf'{{"(kind|model)": "{kind}"', page)
 
 
 def test_python_of_the_holograms_page_runs() -> None:

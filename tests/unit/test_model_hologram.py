@@ -89,7 +89,11 @@ BROKEN = [
     ("recording.object.position_mm.2", "a", "recording.object.position_mm[2]: must be a number,"),
     ("recording.object.index", 0.5, "recording.object.index: must be at least 1, got 0.5"),
     ("recording.reference.direction", [0, 0, 0], "recording.reference.direction: must not have "),
-    ("efficiency.model", "magic", 'efficiency.model: must be one of kinoform, constant, got "ma'),
+    (
+        "efficiency.model",
+        "magic",
+        'efficiency.model: must be one of kinoform, constant, kogelnik, rcwa, table, got "ma',
+    ),
     ("efficiency.levels", 1, "efficiency.levels: must be 0 (continuous) or at least 2, got 1"),
     ("efficiency.levels", -4, "efficiency.levels: must be from 0 to 1000000, got -4"),
     ("efficiency.levels", 2.5, "efficiency.levels: must be a whole number, got 2.5"),

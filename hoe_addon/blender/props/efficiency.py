@@ -1,6 +1,10 @@
 # SPDX-FileCopyrightText: hoe_addon contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The efficiency model as properties: a kinoform, or a list of shares."""
+"""The efficiency model as properties.
+
+The usual numbers of a kinoform, and a list of shares, have properties of their own. All else is
+kept as text: one for each model, so that changing the model back and forth loses nothing.
+"""
 
 from typing import Any
 
@@ -12,12 +16,14 @@ from bpy.props import (
     FloatProperty,
     IntProperty,
     PointerProperty,
+    StringProperty,
 )
 
 from ...model.field_error import FieldError
 from ...model.fields import MAX_ORDER
 from ..ids import EfficiencyModel, Side
 from ..registration import class_registrars
+from . import details
 from .changes import mark
 from .medium import HOE_PG_medium
 from .recording import WAVELENGTH_LIMITS
@@ -25,6 +31,24 @@ from .values import number, reset, rounded_down, store
 
 ORDER_LIMITS = {"min": -MAX_ORDER, "max": MAX_ORDER, "soft_min": -5, "soft_max": 5}
 """Limits and slider range of every diffraction order."""
+
+_OWN = {
+    EfficiencyModel.KINOFORM: ("levels", "design_wavelength_nm", "relief"),
+    EfficiencyModel.CONSTANT: ("table",),
+}
+"""Fields of a model that have properties."""
+_COMMON = ("haze", "lookup")
+"""Fields of every model that are kept in a text of their own."""
+_PATH = "efficiency"
+
+
+def _details(name: str, default: str = "") -> Any:
+    return StringProperty(
+        name=f"{name} Details",
+        description="JSON of the fields of this model that have no properties",
+        default=default,
+        update=mark,
+    )
 
 
 class HOE_PG_share(bpy.types.PropertyGroup):
@@ -93,19 +117,37 @@ class HOE_PG_efficiency(bpy.types.PropertyGroup):
         update=mark,
     )
 
+    kinoform_details: _details("Kinoform")
+    kogelnik_details: _details(
+        "Volume Hologram", '{"thickness_um": 10, "index": 1.5, "modulation": 0.02}'
+    )
+    rcwa_details: _details(
+        "Rigorous Grating", '{"profile": {"shape": "binary", "depth_um": 0.5}, "ridge": 1.5}'
+    )
+    table_details: _details("Table")
+    common_details: StringProperty(
+        name="Haze and Look-up",
+        description="JSON of haze and lookup, which every model may have",
+        update=mark,
+    )
+
     def to_document(self) -> dict[str, Any]:
         """The model as documents write it."""
-        document: dict[str, Any] = {
-            "model": self.model,
-            "total_internal_reflection": self.total_internal_reflection,
-        }
+        document: dict[str, Any] = {"model": self.model}
+        if self.model != EfficiencyModel.CONSTANT:
+            text = getattr(self, f"{self.model}_details")
+            document |= details.read(text, "model", self.model, _PATH)
+        document |= details.read(self.common_details, "model", self.model, _PATH)
+        document["total_internal_reflection"] = self.total_internal_reflection
         if self.model == EfficiencyModel.CONSTANT:
-            return document | {"table": self._table()}
-        return document | {
-            "levels": self.levels,
-            "design_wavelength_nm": number(self, "design_wavelength_nm"),
-            "relief": self.relief.to_document(),
-        }
+            document["table"] = self._table()
+        elif self.model == EfficiencyModel.KINOFORM:
+            document |= {
+                "levels": self.levels,
+                "design_wavelength_nm": number(self, "design_wavelength_nm"),
+                "relief": self.relief.to_document(),
+            }
+        return document
 
     def from_document(self, document: dict[str, Any], path: str) -> None:
         """Take the model of a document.
@@ -117,16 +159,28 @@ class HOE_PG_efficiency(bpy.types.PropertyGroup):
         reset(self)
         self.model = document["model"]
         self.total_internal_reflection = document["total_internal_reflection"]
+        self._keep_as_text(document)
         if document["model"] == EfficiencyModel.CONSTANT:
             for side, shares in document["table"].items():
                 for order, share in shares.items():
                     entry = self.shares.add()
                     entry.side, entry.order = side, int(order)
                     entry.share = rounded_down(share)
-        else:
+        elif document["model"] == EfficiencyModel.KINOFORM:
             self.levels = document["levels"]
             store(self, "design_wavelength_nm", document["design_wavelength_nm"], path)
             self.relief.from_document(document["relief"], f"{path}.relief")
+
+    def _keep_as_text(self, document: dict[str, Any]) -> None:
+        """Keep what has no properties; what is null is left out, as it is by default."""
+        given = {name: item for name, item in document.items() if item is not None}
+        common = {name: given.pop(name) for name in _COMMON if name in given}
+        if common:
+            self.common_details = details.written(common, "model")
+        for name in ("total_internal_reflection", *_OWN.get(document["model"], ())):
+            given.pop(name, None)
+        if document["model"] != EfficiencyModel.CONSTANT:
+            setattr(self, f"{document['model']}_details", details.written(given, "model"))
 
     def _table(self) -> dict[str, dict[str, float]]:
         table: dict[str, dict[str, float]] = {side.value: {} for side in Side}

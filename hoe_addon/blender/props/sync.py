@@ -23,6 +23,7 @@ from ..following import Followed, drive, in_frame_of, lamp_like, waves_of
 from ..ids import PatternKind, WaveKind
 from ..maps import is_packed, prepare_map, update_map
 from ..spectral import use_wavelength
+from ..tables import prepare_table
 from . import changes
 from .values import number, numbers, store
 
@@ -189,7 +190,8 @@ def refresh(material: bpy.types.Material, wavelength: bpy.types.NodeTree | None 
         SpecError: The properties do not make a valid hologram.
         MissingOslError: The text would have to be compiled, and this Blender has no OSL.
         ShaderCompileError: The text does not compile.
-        HoeError: A map that the pattern needs cannot be made.
+        HoeError: A map that the pattern needs, or a table that the efficiencies need, cannot be
+            made.
     """
     properties = _properties(material)
     changes.forget(material)
@@ -200,10 +202,11 @@ def refresh(material: bpy.types.Material, wavelength: bpy.types.NodeTree | None 
         frame, units_per_mm = read_frame(material), number(properties, "units_per_mm")
         # What can fail comes first: the last good shader stays.
         prepare_map(spec, waves)
+        table = prepare_table(spec)
         changed = _bring_up_to_date(
             material,
-            hologram_shader(spec, waves),
-            hologram_sockets(spec, frame, units_per_mm, waves),
+            hologram_shader(spec, waves, table),
+            hologram_sockets(spec, frame, units_per_mm, waves, table),
         )
         drive(_shader_node(material), followed)
         update_map(material, spec, frame, units_per_mm, waves, pack=is_packed(material))

@@ -4,7 +4,10 @@
 
 from .constant import ConstantSpec
 from .kinoform import KinoformSpec
+from .kogelnik import KogelnikSpec
+from .rcwa import RcwaSpec
+from .table import TableSpec
 
-type EfficiencySpec = KinoformSpec | ConstantSpec
+type EfficiencySpec = KinoformSpec | ConstantSpec | KogelnikSpec | RcwaSpec | TableSpec
 
-EFFICIENCIES = (KinoformSpec, ConstantSpec)
+EFFICIENCIES = (KinoformSpec, ConstantSpec, KogelnikSpec, RcwaSpec, TableSpec)

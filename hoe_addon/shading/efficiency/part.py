@@ -26,8 +26,8 @@ class EfficiencyPart:
         parameters: Declarations of shader parameters, each with its trailing comma.
         prepare: Statements that run once per hit, before the first expression.
         sockets: Value by socket identifier.
-        drawn: Takes the place of one ``X(steps, side, share)`` for each branch where ``prepare`` has
-            drawn the one way out that is taken; empty where all branches are.
+        drawn: Takes the place of one ``X(steps, side, share)`` for each branch, where ``prepare``
+            has drawn the one way out that is taken; empty where all branches are.
     """
 
     shares: Mapping[Branch, str]

@@ -1,0 +1,32 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables of efficiencies for the shader, made before anything in the scene is changed."""
+
+from ..core.efficiency.table import EfficiencyTable
+from ..core.gradient_map import Progress
+from ..model.hologram import HologramSpec
+from ..model.tables.cache import table_for
+from .maps import own_folder
+
+
+def prepare_table(
+    spec: HologramSpec, progress: Progress | None = None, *, backward: bool = True
+) -> EfficiencyTable | None:
+    """Make sure of the table of a hologram.
+
+    Args:
+        spec: The hologram.
+        progress: Told the share that is done while the table is made; what it raises, such as
+            `CancelledError`, stops the work.
+        backward: Whether the shader walks from the camera to the light; else along the light.
+
+    Returns:
+        The table from the cache, or made now, which may take minutes; None where the shader
+        computes the shares by a formula.
+
+    Raises:
+        HoeError: The table can not be made, read or written.
+    """
+    if not spec.efficiency.uses_table:
+        return None
+    return table_for(spec, progress, backward, own_folder())
