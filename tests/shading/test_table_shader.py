@@ -159,12 +159,12 @@ def test_haze_is_compiled_in_only_where_there_is_one() -> None:
 
 
 def test_form_is_stated_with_error_and_cost() -> None:
-    form, error, cost = efficiency_form(spec())
-    assert (form, error) == ("formula", 1e-7)
+    form, error, cost, worst = efficiency_form(spec())
+    assert (form, error, worst) == ("formula", 1e-7, 1e-7)
     assert cost
-    form, error, cost = efficiency_form(spec({"form": "table"}))
+    form, error, cost, _worst = efficiency_form(spec({"form": "table"}))
     assert (form, error) == ("table, bilinear", pytest.approx(0.0, abs=1e-7))
     assert cost == "6 numbers in the shader; at each hit 1 of them for every order"
-    form, _error, cost = efficiency_form(spec(STOCHASTIC))
+    form, _error, cost, _worst = efficiency_form(spec(STOCHASTIC))
     assert form == "table, stochastic"
     assert "at each hit 1 random numbers, one node and one order" in cost

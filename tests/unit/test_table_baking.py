@@ -4,7 +4,7 @@
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -372,3 +372,23 @@ def test_an_imported_table_is_given_as_it_is(tmp_path: Path) -> None:
     assert kept.table.branches == (Branch(1), Branch(1, reflected=True))
     assert kept.table.values.ravel() == pytest.approx([0.3, 0.05] * 2, abs=1e-7)
     assert kept.error == 0.0
+
+
+def test_trapped_light_has_the_share_of_its_own_reflection() -> None:
+    """Beyond the critical angle order 0 is folded: its light comes from the walked ray's side."""
+    sent: list[Incidence] = []
+
+    class Watching(Smooth):
+        def shares(self, branches: Any, light: Incidence, polarization: Any = None) -> Any:
+            sent.append(light)
+            return super().shares(branches, light)
+
+    def behind_glass(nodes: Any) -> Incidence:
+        light = nothing_diffracted(nodes)
+        index = np.full(len(nodes), 1.5)
+        return replace(light, tangential=1.5 * nodes[:, 2:4], index_back=index)
+
+    source = NodeSource(Watching(), (Branch(0),), behind_glass, 0.98, backward=True)
+    source.at(np.array([[0.0, 5e-7, 0.9, 0.0, 0.0, 0.0], [0.0, 5e-7, 0.3, 0.0, 0.0, 0.0]]))
+    assert sent[-1].from_front.tolist() == [False, True]
+    np.testing.assert_allclose(sent[-1].tangential[:, 0], [-1.35, -0.45])

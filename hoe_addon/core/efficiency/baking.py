@@ -4,8 +4,9 @@
 
 Axes without effect are collapsed. The others are bisected where linear interpolation misses the
 model, first at the middle of each interval, then where random points that were never looked at
-before show an error. The error that counts is what 99 % of such points keep. It counts the orders that propagate, and apart from the cells in which
-an order begins or ceases to do so: there no number of nodes would do.
+before show an error. What counts is the error that 99 % of such points keep, in the orders that
+propagate, and apart from the cells in which an order begins or ceases to do so: there no number of
+nodes would do.
 """
 
 from dataclasses import dataclass
@@ -29,7 +30,7 @@ CHECKS = 1000
 """Fewest random points of one measurement of the error."""
 _COSTLY_CHECKS = 300
 """The same of models that search at each ray."""
-_CHECKED_PART = 100
+_CHECKED_PART = 30
 """There is one random point at least for so many evaluations of the model."""
 
 _SETTLING = 50

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, as_float
 from ..errors import SpecError
-from ..orders import Branch
+from ..orders import TRANSMITTED_ZERO, Branch
 from .incidence import Incidence, Polarization
 from .model import EfficiencyModel
 from .rigorous import RigorousGrating
@@ -211,6 +211,10 @@ class NodeSource:
         """Light that takes a branch into the reverse of a walked ray."""
         sent = light.reversed(way.steps, reflected=way.reflected)
         length = np.hypot(sent.tangential[..., 0], sent.tangential[..., 1])
+        if way == TRANSMITTED_ZERO:
+            # Light that cannot leave in the order 0 may be reflected: it comes from this side.
+            trapped = length > sent.index_in
+            sent = replace(sent, from_front=np.where(trapped, light.from_front, sent.from_front))
         most = _MOST_COSINE * sent.index_in
         # An order that does not propagate must not stop the model.
         shrunk = np.where(length > sent.index_in, most / np.maximum(length, most), 1.0)

@@ -26,8 +26,6 @@ type Permittivity = Callable[[FloatArray], ComplexArray]
 MAXIMUM = 401
 """Harmonics at which a search gives up unless told otherwise."""
 
-_SETTLED_PART = 0.5
-"""Fixed harmonics are to bring the shares this near to those of a search, of the tolerance."""
 _LEAST_PART = 1.0 / 2.25
 """A search takes two steps by 1.5: what it began with has every order that propagates."""
 _GROWTH = 1.2
@@ -112,7 +110,7 @@ class RigorousGrating:
             fixed = replace(self, harmonics=min(count, most))
             moved = np.abs(fixed.solve(branches, light).shares - searched.shares)
             error = float(np.max(moved, initial=0.0))
-            if error <= _SETTLED_PART * self.tolerance or count >= most:
+            if error <= self.tolerance or count >= most:
                 return Settled(fixed, min(count, most), error, rays)
             count = _odd(count * _GROWTH)
 
@@ -230,17 +228,18 @@ def _in_threads(
     count = len(light)
     if count < 2 * _PART_WAVES or harmonics >= _THREADS_BELOW:
         return solve(stack, light, harmonics, progress).span(-highest, highest)
+
+    def answer(part: IntArray) -> Solution:
+        return solve(stack, light.only(part), harmonics).span(-highest, highest)
+
     result = Solution.empty(count, -highest, highest)
-    parts = np.array_split(np.arange(count), count // _PART_WAVES)
+    parts: list[IntArray] = np.array_split(np.arange(count), count // _PART_WAVES)
     # The limit around all parts stays while single parts set it and take it back.
     pool = ThreadPoolExecutor(os.cpu_count() or 1)
     try:
         with one_thread():
-            answers = pool.map(lambda part: solve(stack, light.only(part), harmonics), parts)
-            for part, found in zip(parts, answers, strict=True):
-                for target, values in zip(
-                    result.arrays, found.span(-highest, highest).arrays, strict=True
-                ):
+            for part, found in zip(parts, pool.map(answer, parts), strict=True):
+                for target, values in zip(result.arrays, found.arrays, strict=True):
                     target[part] = values
                 if progress is not None:
                     progress((int(part[-1]) + 1) / count)

@@ -8,8 +8,9 @@ from itertools import product
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray
-from .interpolation import Cell, interpolate, locate
+from .interpolation import interpolate, locate
 from .node_grid import NodeGrid
+from .node_source import NodeSource
 from .table import EfficiencyTable
 
 QUANTILE = 0.99
@@ -66,22 +67,27 @@ def measured(grid: NodeGrid, table: EfficiencyTable, rng: np.random.Generator, c
     side = np.searchsorted(np.asarray(grid.fronts), nodes[:, 0])
     found = interpolate(table.values, side, cells)
     error = np.where(passing[:, : truth.shape[1]], np.abs(found - truth), 0.0)
-    return Check(nodes, error.max(axis=-1, initial=0.0), _near(grid, table, nodes, cells, passing))
+    return Check(nodes, error.max(axis=-1, initial=0.0), near_cutoff(grid.source, table, nodes))
 
 
-def _near(
-    grid: NodeGrid,
-    table: EfficiencyTable,
-    nodes: FloatArray,
-    cells: list[Cell],
-    passing: BoolArray,
-) -> BoolArray:
-    """Tell around which points the corners of the cell differ in the orders that propagate."""
+def near_cutoff(source: NodeSource, table: EfficiencyTable, nodes: FloatArray) -> BoolArray:
+    """Tell around which points the corners of the cell differ in the orders that propagate.
+
+    Args:
+        source: Knows the orders.
+        table: Has the cells.
+        nodes: Points, shape ``(N, 6)``.
+
+    Returns:
+        Shape ``(N,)``.
+    """
+    cells = [locate(axis, nodes[:, 1 + place]) for place, axis in enumerate(table.axes)]
+    passing = source.passing(nodes)
     near = np.zeros(len(nodes), dtype=np.bool_)
     for corner in product(*((0,) if cell.share is None else (0, 1) for cell in cells)):
         moved = nodes.copy()
         for place, (axis, cell, step) in enumerate(zip(table.axes, cells, corner, strict=True)):
             if cell.share is not None:
                 moved[:, 1 + place] = axis[cell.lower + step]
-        near |= (grid.source.passing(moved) != passing).any(axis=-1)
+        near |= (source.passing(moved) != passing).any(axis=-1)
     return near
