@@ -9,6 +9,7 @@ import pytest
 
 from hoe_addon.core.errors import SpecError
 from hoe_addon.core.rcwa import Lamellar, Layer, Polygon, Uniform, polygon_layers, volume_layers
+from hoe_addon.core.rcwa.crossing import check_simple
 from hoe_addon.core.rcwa.reliefs import (
     binary,
     sampled,
@@ -166,3 +167,31 @@ def test_bad_numbers(make: object, message: str) -> None:
     assert callable(make)
     with pytest.raises(SpecError, match=message):
         make()
+
+
+@pytest.mark.parametrize(
+    ("points", "message"),
+    [
+        ([(0, 0), (0.3, 0.25), (0.6, 0.5), (0.6, 0), (0, 0.5)], "edges must not cross"),
+        ([(0, 0), (1.5, 0), (1.5, 0.5), (0, 0.5)], "must not overlap their own repetition"),
+    ],
+)
+def test_crossings_through_a_corner_and_overlaps_are_refused(
+    points: list[tuple[float, float]], message: str
+) -> None:
+    with pytest.raises(SpecError, match=message):
+        check_simple(np.array(points, dtype=float))
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        [(0, 0), (1, 0), (1, 0.5), (0, 0.5)],
+        [(0, 0), (0.5, 0), (2.5, 1), (2.0, 1)],
+        [(0, 0), (0.5, 0.5), (1, 0), (1, 1), (0.5, 0.5), (0, 1)],
+        [(0, 0), (0, 0.5), (0.5, 0.5), (0.5, 0)],
+        [(0, 0), (0.8, 0), (0.8, 1), (0.6, 1), (0.6, 0.3), (0.3, 0.3), (0.3, 1), (0, 1)],
+    ],
+)
+def test_outlines_that_touch_or_lean_far_are_fine(points: list[tuple[float, float]]) -> None:
+    check_simple(np.array(points, dtype=float))

@@ -3,6 +3,7 @@
 """Whether an outline that is repeated along x crosses itself."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 
@@ -16,7 +17,7 @@ _ROWS = 256
 
 
 def check_simple(points: FloatArray) -> None:
-    """Raise SpecError if the edges of an outline cross; they may touch.
+    """Raise SpecError if an outline crosses itself or overlaps its repetition; it may touch both.
 
     Args:
         points: Corners, x in periods and z in metres, shape ``(V, 2)``.
@@ -35,6 +36,38 @@ def check_simple(points: FloatArray) -> None:
             if np.any(crossing):
                 first, second = (int(k) for k in np.argwhere(crossing)[0])
                 raise SpecError(_message(points, start + first, second, period))
+    heights = np.unique(points[:, 1])
+    for low, high in pairwise(heights):
+        _check_filling(points, float(0.5 * (low + high)))
+
+
+def _check_filling(points: FloatArray, height: float) -> None:
+    """Raise SpecError unless the walls at a height alternate between inside and outside.
+
+    This finds crossings that go through a corner, too.
+    """
+    begin, end = points, np.roll(points, -1, axis=0)
+    cut = np.flatnonzero((begin[:, 1] < height) != (end[:, 1] < height))
+    low, high = begin[cut], end[cut]
+    share = (height - low[:, 1]) / (high[:, 1] - low[:, 1])
+    places = low[:, 0] + share * (high[:, 0] - low[:, 0])
+    upward = high[:, 1] > low[:, 1]
+    # The wall that the sense of rotation puts first comes first, also where two touch.
+    first = upward[np.argmin(places)] if len(places) else False
+    order = np.lexsort((upward != first, np.round(places / _TOUCH) * _TOUCH))
+    places, alternate = places[order], (upward[order] != first) == (np.arange(len(cut)) % 2 == 1)
+    if not np.all(alternate):
+        wrong = int(np.argmin(alternate))
+        raise SpecError(_message(points, int(cut[order[wrong - 1]]), int(cut[order[wrong]]), 0))
+    inside = places.reshape(-1, 2)
+    starts = np.mod(inside[:, 0], 1.0)
+    sorted_starts = np.argsort(starts)
+    ends = (starts + np.diff(inside, axis=1)[:, 0])[sorted_starts]
+    following = np.append(starts[sorted_starts][1:], starts[sorted_starts][:1] + 1.0)
+    if np.any(ends > following + _TOUCH * max(1.0, float(np.max(np.abs(places))))):
+        widest = float(np.max(ends - starts[sorted_starts]))
+        rule = "points: must not overlap their own repetition"
+        raise SpecError(f"{rule}, got a stretch of {widest:g} periods at z = {height:g}")
 
 
 def _crossing(p: FloatArray, q: FloatArray, r: FloatArray, s: FloatArray) -> BoolArray:
