@@ -167,10 +167,12 @@ float hoe_volume_mode(vector ray, float normal_sign, vector gratings[], float re
 
 // Share of one way out, for unpolarised light with the tangential part (along, across) of n s.
 // `gratings` are lambda Q in the frame of the grating, z to the front; (real, imag) is kappa d.
-// Order 0 is the transmitted one, and belongs to no exposure.
+// Order 0 is the transmitted one, and belongs to no exposure. `folds`: an order that cannot leave
+// on its own side is totally reflected and leaves on the other, if it can.
 float hoe_volume_share(float along, float across, int from_back, vector gratings[], float real[],
                        float imag[], int count, float index, float phase_scale, float loss,
-                       int exposure, int order, int side)
+                       float index_back, float index_front, int folds, int exposure, int order,
+                       int side)
 {
     float squared = index * index - along * along - across * across;
     if (squared <= 0.0)
@@ -181,8 +183,15 @@ float hoe_volume_share(float along, float across, int from_back, vector gratings
         vector leaving = ray + order * vector(gratings[exposure][0], gratings[exposure][1],
                                               normal_sign * gratings[exposure][2]);
         int reflected = leaving[2] < 0.0;
-        if (reflected != (side == HOE_REFLECTED)
-            || leaving[0] * leaving[0] + leaving[1] * leaving[1] >= index * index)
+        float turned = leaving[0] * leaving[0] + leaving[1] * leaving[1];
+        if (folds) {
+            int to_back = (from_back != 0) == reflected;
+            float here = to_back ? index_back : index_front;
+            float there = to_back ? index_front : index_back;
+            if (turned >= here * here && turned < there * there)
+                reflected = !reflected;
+        }
+        if (reflected != (side == HOE_REFLECTED) || turned >= index * index)
             return 0.0;
     }
     float share = 0.0;

@@ -59,7 +59,7 @@ def hologram_material(
     sources = followed or {}
     waves = waves_of(sources)
     prepare_map(spec, waves, progress)
-    table = prepare_table(spec, progress)
+    table = prepare_table(spec, progress, followed=waves)
     values = hologram_sockets(spec, frame or Frame(), units_per_mm, waves, table)
     material = nodes.script_material(spec.name, hologram_shader(spec, waves, table), values)
     use_wavelength(material, spectral.group)

@@ -12,7 +12,7 @@ from .interrupt import EXIT_INTERRUPTED
 from .progress import progress_bar
 
 if TYPE_CHECKING:
-    from ..core.efficiency.baking import BakedTable
+    from ..core.efficiency.baked import BakedTable
     from ..model.hologram import HologramSpec
     from ..model.tables.light import TableRange
 
@@ -138,7 +138,7 @@ def report(made: "BakedTable") -> list[str]:
     Returns:
         Lines.
     """
-    from ..core.efficiency.table_check import AXES
+    from ..core.efficiency.table_check import AXES, SIDES, shown
 
     table = made.table
     nodes = " x ".join(
@@ -153,6 +153,14 @@ def report(made: "BakedTable") -> list[str]:
         f"worst seen {made.error:.1e}, rms {made.rms:.1e}; "
         f"tolerance {made.tolerance:g} {'met' if made.reached else 'NOT met'}",
     ]
+    if made.landmark is not None:
+        side, *values = made.landmark.tolist()
+        above = "; above the tolerance" if made.landmark_error > made.tolerance else ""
+        where = ", ".join(shown(axis, value) for axis, value in enumerate(values))
+        lines.append(
+            f"on Bragg and beside: {made.landmark_error:.1e} at most of {made.landmarks} nodes, "
+            f"at {where} from the {SIDES[int(side)]}{above}"
+        )
     if made.cutoff_part > 0.0:
         lines.append(
             f"beside cut-offs of orders ({100.0 * made.cutoff_part:.1f} % of the points): "
@@ -188,7 +196,8 @@ def _check(args: argparse.Namespace) -> None:
 
 def _within(args: argparse.Namespace) -> "TableRange":
     from ..core.efficiency.table_check import SIDES
-    from ..model.tables.light import VISIBLE_NM, WIDEST_COSINE, TableRange
+    from ..model.efficiency.common import VISIBLE_NM
+    from ..model.tables.light import WIDEST_COSINE, TableRange
 
     def cosines(ends: tuple[float, float] | None) -> tuple[float, float]:
         if ends is None:

@@ -27,5 +27,5 @@ class CancelledError(HoeError):
     """The user stopped the work."""
 
 
-class ConvergenceError(HoeError):
-    """A calculation was stopped before its result stood still; the message holds the error."""
+class ConvergenceError(SpecError):
+    """What the document asks for cannot be reached by a search; the message holds the error."""

@@ -40,6 +40,22 @@ class FieldError(SpecError, ValueError):
         self.detail = f"{rule}, got {show(value)}"
         super().__init__(f"{field}: {self.detail}")
 
+    @classmethod
+    def told(cls, field: str, detail: str) -> "FieldError":
+        """Make the message ``field: detail``, where there is no value to show.
+
+        Args:
+            field: Path of the field inside its own struct.
+            detail: What is wrong.
+
+        Returns:
+            The error.
+        """
+        error = cls(field, "", None)
+        error.detail = detail
+        error.args = (f"{field}: {detail}",)
+        return error
+
     def inside(self, parent: str) -> "FieldError":
         """Give the same complaint, seen from the struct around.
 

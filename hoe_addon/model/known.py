@@ -10,9 +10,11 @@ from msgspec import inspect
 
 type Part = str | int
 
+WHOLE = "a whole number"
+
 _WORDS = {
     "float": "a number",
-    "int": "a whole number",
+    "int": WHOLE,
     "str": "a text",
     "bool": "true or false",
     "object": "an object",
@@ -45,8 +47,8 @@ def known_names(kind: type[msgspec.Struct], document: object, parts: Sequence[Pa
         parts: Keys and indices down to the place.
 
     Returns:
-        Field names of a struct, tags of a union of structs, or the values of a choice; empty
-        where anything of a type may stand.
+        Field names of a struct, tags of a union of structs, or the values of a choice, behind
+        them `WHOLE` where that may stand too; empty where anything of a type may stand.
     """
     info: inspect.Type | None = inspect.type_info(kind)
     here = document
@@ -58,7 +60,9 @@ def known_names(kind: type[msgspec.Struct], document: object, parts: Sequence[Pa
         here = _item(here, part)
     choices = [member for member in _members(info) if isinstance(member, inspect.LiteralType)]
     if choices:
-        return [str(value) for member in choices for value in member.values]
+        names = [str(value) for member in choices for value in member.values]
+        numbers = any(isinstance(member, inspect.IntType) for member in _members(info))
+        return [*names, WHOLE] if numbers else names
     chosen = _struct_for(info, here)
     if chosen is None:
         return []

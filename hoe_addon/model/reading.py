@@ -18,7 +18,7 @@ import msgspec
 
 from ..core.errors import SpecError
 from .field_error import FieldError, join
-from .known import Part, in_words, known_names
+from .known import WHOLE, Part, in_words, known_names
 
 MAX_BYTES = 16 * 2**20
 MAX_DEPTH = 64
@@ -183,8 +183,30 @@ def _explain(
         return FieldError(
             _written(here), f"is not a field here (known: {known})", at(document, here)
         )
+    value = at(document, parts)
+    if isinstance(value, float) and value.is_integer() and "`int" in what:
+        # A whole number in another spelling, such as 1e9: its range is what matters.
+        try:
+            msgspec.convert(_with(document, parts, int(value)), kind, strict=True)
+        except msgspec.ValidationError as other:
+            cause = other.__cause__
+            if isinstance(cause, FieldError) and cause.detail.startswith("must be from"):
+                return cause.inside(_written(parts[:-1]))
     rule = _rule(what, known_names(kind, document, parts))
-    return FieldError(_written(parts) or "document", rule, at(document, parts))
+    return FieldError(_written(parts) or "document", rule, value)
+
+
+def _with(document: object, parts: list[Part], value: object) -> object:
+    """A copy of a document with another value at one place."""
+    if not parts:
+        return value
+    first, rest = parts[0], parts[1:]
+    if isinstance(document, dict):
+        table = cast("dict[Part, object]", document)
+        return {**table, first: _with(table.get(first), rest, value)}
+    items = list(cast("list[object]", document))
+    items[cast("int", first)] = _with(items[cast("int", first)], rest, value)
+    return items
 
 
 def _rule(what: str, known: list[str]) -> str:
@@ -194,6 +216,8 @@ def _rule(what: str, known: list[str]) -> str:
     text = _TEXT_LENGTH.match(what)
     if text:
         return f"must be a text of at most {text['length']} characters"
+    if known and known[-1] == WHOLE:
+        return f"must be {', '.join(known[:-1])} or {WHOLE}"
     kind = _TYPE.match(what)
     if kind:
         return f"must be {in_words(kind['expected'])}"

@@ -105,7 +105,7 @@ def test_writing_leaves_nothing_of_the_last_one(registered: Any, lens: dict[str,
         ("rcwa_details", "[1]", r"efficiency: must be a JSON object"),
         ("rcwa_details", "{", r"efficiency: line 1"),
         ("common_details", '{"haze": {"width_deg": 1}}', r"efficiency\.haze\.share: must be"),
-        ("common_details", '{"depth": 1}', r"efficiency\.depth: is not a field here"),
+        ("common_details", '{"depth": 1}', r"efficiency\.depth: must not stand in"),
     ],
 )
 def test_texts_of_people_are_checked(
@@ -114,5 +114,28 @@ def test_texts_of_people_are_checked(
     material: Any = bpy.data.materials.new("lens")
     write_spec(material, hologram_from(document(lens, RCWA)))
     setattr(material.hologram.efficiency, field, text)
+    with pytest.raises(SpecError, match=message):
+        read_spec(material)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("common_details", '{"thickness_um": 3}', "efficiency.thickness_um: must not stand"),
+        ("common_details", '{"model": "kinoform"}', "efficiency.model: is set outside this text"),
+        ("kogelnik_details", '{"haze": {}}', "efficiency.haze: is set outside this text"),
+        (
+            "kogelnik_details",
+            '{"total_internal_reflection": true}',
+            "efficiency.total_internal_reflection: is set outside this text",
+        ),
+    ],
+)
+def test_a_text_holds_its_own_fields_only(
+    registered: Any, lens: dict[str, Any], name: str, text: str, message: str
+) -> None:
+    material: Any = bpy.data.materials.new("lens")
+    write_spec(material, hologram_from(document(lens, KOGELNIK)))
+    setattr(material.hologram.efficiency, name, text)
     with pytest.raises(SpecError, match=message):
         read_spec(material)

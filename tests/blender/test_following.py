@@ -277,3 +277,15 @@ def test_saved_file_follows_without_the_add_on(plate: Any, lamp: Any, tmp_path: 
         assert not math.isclose(found[2], 0.0)
     finally:
         hoe_addon.register()
+
+
+def test_a_table_refuses_a_source_that_follows(plate: Any, lamp: Any) -> None:
+    """It would keep the shares of the place where the source once was."""
+    material = plate.data.materials[0]
+    shader = hologram_node(material).script
+    material.hologram.efficiency.common_details = '{"lookup": {"form": "table"}}'
+    wave = material.hologram.recording.object
+    wave.target, wave.follows = lamp, True
+    with pytest.raises(SpecError, match="a table is made for fixed sources, but the object wave"):
+        refresh(material)
+    assert hologram_node(material).script == shader

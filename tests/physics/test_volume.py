@@ -15,7 +15,7 @@ from hoe_addon.core.orders import Branch
 from hoe_addon.core.ray_law import Status
 from hoe_addon.core.units import m_to_mm, mm_to_m
 from hoe_addon.model.convert import recording_from
-from hoe_addon.model.document import hologram_from
+from hoe_addon.model.document import hologram_from, to_document
 from hoe_addon.model.element import element_shape
 from hoe_addon.model.evaluate import efficiencies, fan, trace
 from hoe_addon.model.hologram import HologramSpec
@@ -67,6 +67,59 @@ def hologram(
             },
         }
     )
+
+
+EDGE_LIT = {
+    "wavelength_nm": 532,
+    "object": {"kind": "plane", "direction": [0.9, 0, 0.6], "index": 1.5},
+    "reference": {"kind": "plane", "direction": [0, 0, 1]},
+}
+TWO_WAVES = 0.02
+"""What two-wave theory leaves out at Q' = 126: the faces, and higher orders."""
+
+
+def edge_lit(*, folds: bool, swapped: bool = False) -> HologramSpec:
+    """A coupler whose order +1 runs to the face of air beyond its critical angle."""
+    media = {"back": 1.0, "front": 1.5} if swapped else {"back": 1.5, "front": 1.0}
+    return hologram_from(
+        {
+            "schema": 1,
+            "name": "coupler",
+            "surface": PLANE,
+            "media": media,
+            "recording": EDGE_LIT,
+            "efficiency": {
+                "model": "kogelnik",
+                "thickness_um": 8,
+                "index": 1.5,
+                "modulation": 0.02,
+                "total_internal_reflection": folds,
+            },
+        }
+    )
+
+
+def test_an_order_that_cannot_leave_is_totally_reflected() -> None:
+    lost = efficiencies(edge_lit(folds=False), AXIS, 532.0, (1, 0, -1))
+    assert lost[0] == pytest.approx([0.0, 0.0], abs=0.0)
+    assert lost.sum() < 0.4
+    kept = efficiencies(edge_lit(folds=True), AXIS, 532.0, (1, 0, -1))
+    assert kept[0, 0] == 0.0
+    assert kept[0, 1] == pytest.approx(0.6659, abs=TWO_WAVES)  # rcwa, of the same grating
+    assert kept.sum() == pytest.approx(1.0, abs=EXACT)
+
+
+def test_an_order_that_can_leave_only_beyond_is_transmitted() -> None:
+    """Light from air, which the grating sends back to air beyond its critical angle."""
+    shares = {}
+    for folds in (False, True):
+        document = to_document(edge_lit(folds=folds, swapped=True))
+        document["recording"]["object"]["direction"] = [0.9, 0.0, -0.6]
+        shares[folds] = efficiencies(hologram_from(document), AXIS, 532.0, (1, 0, -1))
+    assert (shares[False][0] == 0.0).all()
+    assert shares[True][0, 0] > 0.3
+    assert shares[True][0, 1] == 0.0
+    assert shares[True].sum() == pytest.approx(1.0, abs=EXACT)
 
 
 def along(angle: float) -> np.ndarray:

@@ -64,6 +64,11 @@ SYSTEM = {
         {"shape": "plane", "vertex_mm": [0, 0, -52], "semi_diameter_mm": 16, "medium": 1.0},
     ],
 }
+EDGE_LIT = {
+    "wavelength_nm": 532,
+    "object": {"kind": "plane", "direction": [0.9, 0, 0.6], "index": 1.5},
+    "reference": {"kind": "plane", "direction": [0, 0, 1]},
+}
 ABSORBING = {
     "thickness_um": 20,
     "absorption_per_mm": 10,
@@ -87,6 +92,12 @@ CASES: dict[str, tuple[dict[str, Any], dict[str, Any], dict[str, Any], tuple[flo
     "on a glass sphere": ({"recording": POINT_MIRROR}, {}, SPHERE, (1.5168, 1.0)),
     "three colours": ({"recording": POINT_MIRROR}, THREE, PLANE, (1.0, 1.2)),
     "slanted lines": ({"characteristic": LINES}, {"normal_period_um": -2}, PLANE, (1.5, 1.0)),
+    "order that cannot leave": (
+        {"recording": EDGE_LIT},
+        {"total_internal_reflection": True},
+        PLANE,
+        (1.5, 1.0),
+    ),
     "object wave from a map": (
         {"recording": {**POINTS, "object": SYSTEM}},
         {},

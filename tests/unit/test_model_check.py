@@ -79,6 +79,27 @@ def report(spec: HologramSpec) -> Report:
     return check_hologram(spec, usual(spec))
 
 
+@pytest.mark.parametrize("folds", [False, True])
+def test_light_that_cannot_leave_is_told(folds: bool) -> None:
+    efficiency = {"model": "kogelnik", "thickness_um": 8, "index": 1.5, "modulation": 0.02}
+    waves_of_coupler = {
+        "wavelength_nm": 532,
+        "object": {"kind": "plane", "direction": [0.9, 0, 0.6], "index": 1.5},
+        "reference": {"kind": "plane", "direction": [0, 0, 1]},
+    }
+    found = report(
+        hologram(
+            efficiency | {"total_internal_reflection": folds},
+            media={"back": 1.5, "front": 1.0},
+            recording=waves_of_coupler,
+        )
+    )
+    told = [each for each in found.findings if each.name == "R + T"]
+    assert [each.holds for each in told] == [folds]
+    words = "66.5 % goes into an order that cannot leave; set total_internal_reflection"
+    assert (words in told[0].warning) is not folds
+
+
 def finding(found: Report, name: str, model: str | None = None) -> Finding:
     listed = [f for f in found.findings if f.name == name and model in (None, f.model)]
     assert len(listed) == 1

@@ -107,7 +107,7 @@ BROKEN = [
     ("efficiency", constant({"+1": 0.1}), "efficiency.table.T: order must be a whole number fro"),
     ("efficiency", constant({"101": 0.1}), "efficiency.table.T: order must be a whole number fro"),
     ("efficiency", constant({}, {"7": 0.1}), "efficiency.table.R.7: order is not listed in order"),
-    ("orders", ..., "orders: must list at least one order, got []"),
+    ("orders", ..., "orders: is missing"),
     ("orders", [], "orders: must be a list of length at least 1, got []"),
     ("orders", [1, 0, 1], "orders: must list each order once, got 1"),
     ("orders", [0, 0.5], "orders[1]: must be a whole number, got 0.5"),

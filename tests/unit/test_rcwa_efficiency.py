@@ -146,10 +146,10 @@ def test_search_for_harmonics_carries_its_error() -> None:
     assert (found.error < 5e-3).all()
     assert (found.error > 0.0).all()
     best = replace(GRATING, harmonics=61).solve(WAYS, LIGHT)
-    assert np.abs(found.shares - best.shares).max() < 2.0 * 5e-3  # slanted walls: error as 1 / n
+    assert np.abs(found.shares - best.shares).max() < 5e-3
     assert told == sorted(told)
     assert told[-1] == 1.0
-    with pytest.raises(ConvergenceError, match="still moves by"):
+    with pytest.raises(ConvergenceError, match="may be off by"):
         replace(search, tolerance=1e-9, maximum=21).shares(WAYS, LIGHT)
     rough = replace(search, tolerance=1e-9, maximum=21, accept=True).solve(WAYS, LIGHT)
     assert (rough.error > 1e-9).all()

@@ -132,7 +132,7 @@ def changed(place: int, row: str) -> list[str]:
     ("rows", "message"),
     [
         (GOOD[:-1], "efficiency: must have a number at every node, got nan at incidence front, "
-                    "wavelength 550 nm, along 0.5, order 1 T"),
+                    "wavelength_nm 550, along_deg 30, order 1 T"),
         (changed(3, "450,-20,front,1,T,nan"), "efficiency: must be finite, got nan in row 5"),
         (changed(3, "450,-20,front,1,T,-0.2"), "efficiency: must be at least 0, got -0.2 in row 5"),
         (changed(3, "450,-20,front,1,T,20"),
@@ -144,7 +144,7 @@ def changed(place: int, row: str) -> list[str]:
         (changed(3, "450,-20,top,1,T,0.1"), "incidence: must be back or front, got 'top' in row 5"),
         (changed(3, "450,-20,front,1,X,0.1"), "side: must be T or R, got 'X' in row 5"),
         (changed(3, "450,-20,front,1.5,T,0.1"), "order: must be a whole number, got '1.5' in row"),
-        (changed(3, "450,-20,front,101,T,0.1"), "rows: must be a full grid|order: must be from"),
+        (changed(3, "450,-20,front,101,T,0.1"), "order: must be .* 100, got 101 in row 5"),
         (changed(3, "450,-20.5,front,1,T,0.1"), "efficiency: must have a number at every node"),
         ([*GOOD, "450,-20,back,0,T,0.3"],
          "efficiency: a node stands twice with different shares, got 0.1 in row 2"),
@@ -153,7 +153,7 @@ def changed(place: int, row: str) -> list[str]:
         ([row.replace("450", "450e-9").replace("550", "550e-9") for row in GOOD],
          "wavelength_nm: must be in nm, got 4.5e-07, which looks like metres"),
         ([row.replace(",30,", ",95,") for row in GOOD],
-         "along_deg: must be from -90 to 90 degrees, got 95 in row 3"),
+         "along_deg: must be from -90 to 90 degrees, got 95 in row 10"),
         ([], "rows: must be 1 to"),
     ],
 )  # fmt: skip
@@ -174,6 +174,13 @@ def test_bad_csv(tmp_path: Path, rows: list[str], message: str) -> None:
 def test_bad_header(tmp_path: Path, header: str, message: str) -> None:
     with pytest.raises(SpecError, match=message):
         read_table(write_csv(tmp_path / "a.csv", ["0,0,0,0"], header))
+
+
+def test_an_empty_file(tmp_path: Path) -> None:
+    for name, text in (("a.csv", ""), ("b.csv", "\n\n"), ("a.npz", ""), ("a.txt", "")):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+        with pytest.raises(SpecError, match=r"^is empty$"):
+            read_table(str(tmp_path / name))
 
 
 def test_corners_beyond_grazing_may_be_left_out(tmp_path: Path) -> None:
@@ -254,11 +261,11 @@ def test_text_by_hand(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("450 550\n", "550 450\n", "wavelength_nm: must increase, got 450 after 550 in row 2"),
-        ("-10 10\n", "10 10\n", "along_deg: must increase, got 10 after 10 in row 2"),
+        ("450 550\n", "550 450\n", "Wavelength: must increase, got 450 after 550 in entry 2"),
+        ("-10 10\n", "10 10\n", "AngleOfIncidence: must increase, got 10 after 10 in entry 2"),
         ("0.3 0.1\n", "0.3\n", "line 18: must hold 2 numbers, one an order, in each of 2 lines"),
         ("0.3 0.1\n", "0.3 x\n", "line 18: must be a number, got 'x'"),
-        ("0.3 0.1\n", "0.3 0.8\n", "sum to at most 1, got 1.1 at incidence back, wavelength 550"),
+        ("0.3 0.1\n", "0.3 0.8\n", "sum to at most 1, got 1.1 at incidence back, Wavelength 550"),
         ("DataBegin back 550", "DataBegin back 540", "line 17: must be DataBegin back 550.0, got"),
         ("0.4 0.2\nDataEnd\n", "DataEnd\n", "line 15: must hold 2 numbers, .* got 'DataEnd'"),
         ("Order  2\n1 1", "Order  3\n1 1", "Order: must have 3 entries, got 2 in line 8"),
@@ -310,7 +317,10 @@ def arrays() -> dict[str, Any]:
         ({"beyond": np.array("wrap")}, "beyond: must be clamp or zero"),
         ({"colour": np.zeros(1)}, "holds an array that is not known"),
         ({"frequency": np.array([1.0, np.nan])}, "frequency: must be finite and not 0, got nan in"),
-        ({"incidence": np.array(["left"])}, "incidence: must be back or front, got 'left' in row"),
+        (
+            {"incidence": np.array(["left"])},
+            "incidence: must be back or front, got 'left' in entry",
+        ),
     ],
 )
 def test_bad_npz(tmp_path: Path, changes: dict[str, Any], message: str) -> None:
@@ -405,6 +415,10 @@ def test_mistakes_of_a_document_name_the_field(tmp_path: Path, rng: np.random.Ge
     (tmp_path / "table.npz").write_bytes(b"PK")
     with pytest.raises(SpecError, match=r"efficiency.file: is no readable .npz file"):
         load_hologram(hologram(tmp_path, model="table", file="table.npz"))
+    write_csv(tmp_path / "table.csv", changed(3, "450,-20,front,1,T,20"))
+    with pytest.raises(SpecError, match="at incidence front, wavelength_nm 450") as caught:
+        load_hologram(hologram(tmp_path, model="table", file="table.csv"))
+    assert str(caught.value).count("got") == 1
     write_table(tmp_path / "table.npz", sample(rng))
     with pytest.raises(SpecError, match=r"efficiency.beyond: must be one of clamp, zero"):
         load_hologram(hologram(tmp_path, model="table", file="table.npz", beyond="wrap"))

@@ -6,6 +6,7 @@ The text is the JSON of that part without its kind, so that every number comes b
 """
 
 import json
+from collections.abc import Collection
 from typing import Any, cast
 
 from ...core.errors import SpecError
@@ -26,7 +27,9 @@ def written(document: dict[str, Any], tag: str) -> str:
     return json.dumps({name: item for name, item in document.items() if name != tag})
 
 
-def read(text: str, tag: str, kind: str, path: str) -> dict[str, Any]:
+def read(
+    text: str, tag: str, kind: str, path: str, elsewhere: Collection[str] = ()
+) -> dict[str, Any]:
     """Read a part back; what it says is checked with the rest of the document.
 
     Args:
@@ -34,12 +37,14 @@ def read(text: str, tag: str, kind: str, path: str) -> dict[str, Any]:
         tag: Name of the field that tells its kind.
         kind: The kind.
         path: Path of the part in the document, for messages.
+        elsewhere: Fields that are properties of their own, or stand in another text.
 
     Returns:
         The part as documents write it.
 
     Raises:
-        SpecError: The text is not a JSON object; with the path.
+        SpecError: The text is not a JSON object, or has a field that does not belong in it; with
+            the path.
     """
     try:
         document = parse_json(text or "{}")
@@ -47,4 +52,9 @@ def read(text: str, tag: str, kind: str, path: str) -> dict[str, Any]:
         raise SpecError(f"{path}: {error}") from error
     if not isinstance(document, dict):
         raise FieldError(path, "must be a JSON object", show(document))
-    return {tag: kind, **cast("dict[str, Any]", document)}
+    found = cast("dict[str, Any]", document)
+    for name in (tag, *elsewhere):
+        if name in found:
+            rule = "is set outside this text and must not stand in it"
+            raise FieldError(f"{path}.{name}", rule, found[name])
+    return {tag: kind, **found}

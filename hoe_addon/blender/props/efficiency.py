@@ -39,6 +39,7 @@ _OWN = {
 """Fields of a model that have properties."""
 _COMMON = ("haze", "lookup")
 """Fields of every model that are kept in a text of their own."""
+_FOLD = "total_internal_reflection"
 _PATH = "efficiency"
 
 
@@ -136,9 +137,10 @@ class HOE_PG_efficiency(bpy.types.PropertyGroup):
         document: dict[str, Any] = {"model": self.model}
         if self.model != EfficiencyModel.CONSTANT:
             text = getattr(self, f"{self.model}_details")
-            document |= details.read(text, "model", self.model, _PATH)
-        document |= details.read(self.common_details, "model", self.model, _PATH)
-        document["total_internal_reflection"] = self.total_internal_reflection
+            elsewhere = (_FOLD, *_COMMON, *_OWN.get(self.model, ()))
+            document |= details.read(text, "model", self.model, _PATH, elsewhere)
+        document |= self._common()
+        document[_FOLD] = self.total_internal_reflection
         if self.model == EfficiencyModel.CONSTANT:
             document["table"] = self._table()
         elif self.model == EfficiencyModel.KINOFORM:
@@ -158,7 +160,7 @@ class HOE_PG_efficiency(bpy.types.PropertyGroup):
         """
         reset(self)
         self.model = document["model"]
-        self.total_internal_reflection = document["total_internal_reflection"]
+        self.total_internal_reflection = document[_FOLD]
         self._keep_as_text(document)
         if document["model"] == EfficiencyModel.CONSTANT:
             for side, shares in document["table"].items():
@@ -177,10 +179,17 @@ class HOE_PG_efficiency(bpy.types.PropertyGroup):
         common = {name: given.pop(name) for name in _COMMON if name in given}
         if common:
             self.common_details = details.written(common, "model")
-        for name in ("total_internal_reflection", *_OWN.get(document["model"], ())):
+        for name in (_FOLD, *_OWN.get(document["model"], ())):
             given.pop(name, None)
         if document["model"] != EfficiencyModel.CONSTANT:
             setattr(self, f"{document['model']}_details", details.written(given, "model"))
+
+    def _common(self) -> dict[str, Any]:
+        found = details.read(self.common_details, "model", self.model, _PATH, (_FOLD,))
+        for name in found.keys() - {"model", *_COMMON}:
+            rule = f"must not stand in the text of {' and '.join(_COMMON)}"
+            raise FieldError(f"{_PATH}.{name}", rule, found[name])
+        return found
 
     def _table(self) -> dict[str, dict[str, float]]:
         table: dict[str, dict[str, float]] = {side.value: {} for side in Side}

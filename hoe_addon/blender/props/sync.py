@@ -202,7 +202,7 @@ def refresh(material: bpy.types.Material, wavelength: bpy.types.NodeTree | None 
         frame, units_per_mm = read_frame(material), number(properties, "units_per_mm")
         # What can fail comes first: the last good shader stays.
         prepare_map(spec, waves)
-        table = prepare_table(spec)
+        table = prepare_table(spec, followed=waves)
         changed = _bring_up_to_date(
             material,
             hologram_shader(spec, waves, table),

@@ -6,25 +6,24 @@ Axes without effect are collapsed. The others are bisected where linear interpol
 model, first at the middle of each interval, then where random points that were never looked at
 before show an error. What counts is the error that 99 % of such points keep, in the orders that
 propagate, and apart from the cells in which an order begins or ceases to do so: there no number of
-nodes would do.
+nodes would do. Random points miss a narrow peak: landmarks, nodes at which the model is known to be
+steep, are looked at as well, and all of them count.
 """
-
-from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray
+from .baked import BakedTable
 from .incidence import Polarization
 from .interpolation import locate
 from .node_grid import NodeGrid
-from .node_source import NodeSource
-from .settling import Settled
+from .node_source import NODE, NodeSource
 from .table import EfficiencyTable
 from .table_check import AXES, SIDES, Side
-from .table_error import Check, measured
+from .table_error import Check, errors_at, joined, measured
 
 LARGEST = 65_536
-"""Most numbers of a table in the shader, unless another limit is asked for."""
+"""Most numbers of a table in the shader: larger constant arrays stop its compiler."""
 
 CHECKS = 1000
 """Fewest random points of one measurement of the error."""
@@ -50,48 +49,6 @@ _MOST_ROUNDS = 200
 _SEED = 20260601
 
 
-@dataclass(frozen=True, eq=False)
-class BakedTable:
-    """A table and how good it is; errors are absolute in the share.
-
-    Attributes:
-        table: The table.
-        tolerance: The error that was asked for.
-        quantile: Error that 99 % of the random points keep, away from cut-offs.
-        error: Largest error of them, which may be larger at other points.
-        rms: Root of the mean square of it.
-        cutoff_error: Largest error in cells with a cut-off; 0 where there are none.
-        cutoff_part: Part of the random points that lie in such cells.
-        checks: How many random points, near cut-offs or not, propagate and are recorded.
-        collapsed: Names of the axes that stand for any value.
-        spread: Largest difference of s and p at the random points.
-        mean_spread: Mean of it.
-        evaluated: At how many nodes the model was evaluated.
-        excess: By how much shares summed to more than 1 and were scaled down; see `NodeSource`.
-        settled: What a model that searches at each ray has settled on; None for others.
-    """
-
-    table: EfficiencyTable
-    tolerance: float
-    quantile: float
-    error: float
-    rms: float
-    cutoff_error: float
-    cutoff_part: float
-    checks: int
-    collapsed: tuple[str, ...]
-    spread: float
-    mean_spread: float
-    evaluated: int
-    excess: float
-    settled: Settled | None
-
-    @property
-    def reached(self) -> bool:
-        """Whether 99 % of the random points away from cut-offs are within the tolerance."""
-        return self.quantile <= self.tolerance
-
-
 def bake(
     source: NodeSource,
     sides: tuple[Side, ...],
@@ -99,6 +56,7 @@ def bake(
     tolerance: float,
     largest: int = LARGEST,
     checks: int | None = None,
+    landmarks: FloatArray | None = None,
 ) -> BakedTable:
     """Make a table of a model.
 
@@ -110,6 +68,8 @@ def bake(
         tolerance: Largest error to reach, absolute in the share.
         largest: Most numbers of the table.
         checks: Fewest random points of each measurement; None for as many as fit the model.
+        landmarks: Nodes where shares may be steep, such as light on Bragg, the most important
+            ones first, shape ``(N, 6)``.
 
     Returns:
         The table and its error, which is above the tolerance where the size does not suffice.
@@ -122,21 +82,24 @@ def bake(
     _settle(grid)
     if checks is None:
         checks = CHECKS if source.settled is None else _COSTLY_CHECKS
-    flat = _collapse(grid, rng, tolerance, largest)
+    peaks = np.empty((0, NODE)) if landmarks is None else landmarks
+    flat = _collapse(grid, rng, peaks, tolerance, largest)
     goal = 0.5 * tolerance
     for _ in range(_MOST_ROUNDS):
         if _refine(grid, goal, largest):
             continue
         table = _table(grid, flat)
         check = _check(grid, table, rng, checks)
-        bad = (check.error > tolerance) & ~check.near_cutoff
-        if not bad.any() or not _mend(grid, check, bad, largest):
+        marked = errors_at(grid, table, peaks)
+        both = joined(check, marked)
+        bad = (both.error > tolerance) & ~both.near_cutoff
+        if not bad.any() or not _mend(grid, both, bad, largest):
             break
         flat = [axis for axis in flat if len(grid.axes[axis]) == 1]
     else:
         table = _table(grid, flat)
-        check = _check(grid, table, rng, checks)
-    return _report(grid, table, check, tolerance)
+        check, marked = _check(grid, table, rng, checks), errors_at(grid, table, peaks)
+    return _report(grid, table, check, marked, tolerance)
 
 
 def _settle(grid: NodeGrid) -> None:
@@ -156,10 +119,14 @@ def _check(grid: NodeGrid, table: EfficiencyTable, rng: np.random.Generator, lea
 
 
 def _collapse(
-    grid: NodeGrid, rng: np.random.Generator, tolerance: float, largest: int
+    grid: NodeGrid,
+    rng: np.random.Generator,
+    peaks: FloatArray,
+    tolerance: float,
+    largest: int,
 ) -> list[int]:
     """Open the axes that have an effect; return those with an effect below the tolerance."""
-    variation = grid.variation(rng, _LINES)
+    variation = grid.variation(rng, _LINES, peaks[:_LINES])
     flat: list[int] = []
     for axis in sorted(range(len(AXES)), key=lambda place: -variation[place]):
         if variation[axis] <= 0.5 * tolerance:
@@ -256,7 +223,9 @@ def _mend(grid: NodeGrid, check: Check, bad: BoolArray, largest: int) -> bool:
     return grid.bisect([(1.0, axis, interval) for axis, interval in marks], largest)
 
 
-def _report(grid: NodeGrid, table: EfficiencyTable, check: Check, tolerance: float) -> BakedTable:
+def _report(
+    grid: NodeGrid, table: EfficiencyTable, check: Check, marked: Check, tolerance: float
+) -> BakedTable:
     away = check.away
     near = check.error[check.near_cutoff]
     apart = _apart(grid.source, check.nodes[:_SPREAD_CHECKS])
@@ -266,6 +235,9 @@ def _report(grid: NodeGrid, table: EfficiencyTable, check: Check, tolerance: flo
         quantile=check.quantile,
         error=float(np.max(away, initial=0.0)),
         rms=float(np.sqrt(np.mean(away**2))) if len(away) else 0.0,
+        landmark_error=float(np.max(marked.error, initial=0.0)),
+        landmark=marked.nodes[np.argmax(marked.error)] if len(marked.error) else None,
+        landmarks=len(marked.error),
         cutoff_error=float(np.max(near, initial=0.0)),
         cutoff_part=len(near) / max(len(check.error), 1),
         checks=len(check.error),

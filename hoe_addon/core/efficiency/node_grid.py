@@ -84,19 +84,29 @@ class NodeGrid:
             points[:, 1 + axis] = np.clip(points[:, 1 + axis], *self.ranges[axis])
         return points
 
-    def variation(self, rng: np.random.Generator, lines: int) -> list[float]:
-        """Half of the largest spread along each axis, on some lines through random points."""
-        base = self.random(rng, lines)
+    def variation(self, rng: np.random.Generator, lines: int, landmarks: FloatArray) -> list[float]:
+        """Half of the largest spread along each axis, on lines through random points.
+
+        Args:
+            rng: Draws the points.
+            lines: How many of them.
+            landmarks: Further points, shape ``(N, 6)``.
+
+        Returns:
+            A number for each axis, absolute in the share.
+        """
+        base = np.concatenate((self.random(rng, lines), landmarks))
         found: list[float] = []
         for axis, (low, high) in enumerate(self.ranges):
             steps = np.linspace(low, high, 2 * FIRST_NODES[axis] - 1)
-            points = np.repeat(base[:, None, :], len(steps), axis=1)
-            points[:, :, 1 + axis] = steps
+            # The last is the point itself: a narrow peak lies between all steps.
+            points = np.repeat(base[:, None, :], len(steps) + 1, axis=1)
+            points[:, :-1, 1 + axis] = steps
             shares, passing = self.source.at(points.reshape(-1, NODE))
             count = len(self.source.branches)
             real = np.hypot(points[..., 2], points[..., 3]) <= self.source.radius
             seen = np.where(passing[:, :count] & real.reshape(-1, 1), shares, np.nan)
-            seen = seen.reshape(lines, len(steps), count)
+            seen = seen.reshape(len(base), len(steps) + 1, count)
             found.append(0.5 * _largest(_spread(seen)) if low < high else 0.0)
         return found
 

@@ -12,8 +12,9 @@ from functools import partial
 import numpy as np
 
 from ..arrays import BoolArray, ComplexArray, FloatArray, IntArray
+from ..errors import ConvergenceError
 from ..orders import Branch
-from ..rcwa import PlaneWaves, Progress, Solution, Stack, converge, solve
+from ..rcwa import PlaneWaves, Progress, SingularError, Solution, Stack, converge, solve
 from ..rcwa.blas import one_thread
 from .incidence import Incidence, Polarization
 from .settling import Settled
@@ -44,8 +45,8 @@ class RigorousShares:
     Attributes:
         shares: Power of each branch over the incident power for s and for p light, shape
             ``(..., K, 2)``; 0 for orders that do not propagate.
-        error: How far any efficiency moved in the last two steps of the harmonics, shape
-            ``(...)``; 0 where there is no grating, NaN where the harmonics were given.
+        error: Bound of the error of any efficiency, from the last two steps of the harmonics,
+            shape ``(...)``; 0 where there is no grating, NaN where the harmonics were given.
         harmonics: Number of harmonics, shape ``(...)``.
     """
 
@@ -68,9 +69,10 @@ class RigorousGrating:
         fixed: Whether `stack` is the same for all frequencies, since lengths along x are counted
             in periods; if not, it is asked once for each frequency that differs.
         harmonics: Number of harmonics, odd; None to raise it until the tolerance is met.
-        tolerance: Change of any efficiency at which the search stops.
+        tolerance: Error of any efficiency at which the search stops.
         maximum: Most harmonics of a search.
         accept: Take what a search has reached at its maximum instead of raising.
+        path: Where the grating stands, put before what is wrong with the harmonics.
     """
 
     stack: StackOf
@@ -80,6 +82,7 @@ class RigorousGrating:
     tolerance: float = 1e-3
     maximum: int = MAXIMUM
     accept: bool = False
+    path: str = ""
 
     def shares(
         self,
@@ -109,7 +112,10 @@ class RigorousGrating:
         while True:
             fixed = replace(self, harmonics=min(count, most))
             moved = np.abs(fixed.solve(branches, light).shares - searched.shares)
-            error = float(np.max(moved, initial=0.0))
+            # The search is off itself, and with no fewer harmonics a ray is no farther off.
+            fewer = min(count, most) < searched.harmonics
+            off = np.where(fewer, moved.max(axis=(-2, -1), initial=0.0), 0.0) + searched.error
+            error = float(np.max(off, initial=0.0))
             if error <= self.tolerance or count >= most:
                 return Settled(fixed, min(count, most), error, rays)
             count = _odd(count * _GROWTH)
@@ -149,7 +155,10 @@ class RigorousGrating:
             if size == 0:
                 continue
             tell = partial(_tell, progress, done / total, size / total) if progress else None
-            self._solve_group(branches, value, waves, chosen, result, tell)
+            try:
+                self._solve_group(branches, value, waves, chosen, result, tell)
+            except (ConvergenceError, SingularError) as error:
+                raise type(error)(f"{self.path}{error}") from error
             done += size
         shape = light.shape
         return RigorousShares(

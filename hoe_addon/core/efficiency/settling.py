@@ -18,8 +18,9 @@ class Settled:
     Attributes:
         model: The model with a fixed number of harmonics.
         harmonics: That number.
-        error: How far its shares were from those of the search, at most; NaN where the number was
-            given and nothing was searched.
+        error: Bound of the error of its shares: how far they were from those of the search where
+            that took more harmonics, with the error of the search; NaN where the number was given
+            and nothing was searched.
         rays: For how many rays that was looked at.
     """
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rules that every table of shares keeps; what breaks one is named with its place and value."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Literal
 
 import numpy as np
@@ -70,14 +70,16 @@ def check_shares(
     sides: Sequence[str],
     axes: Sequence[FloatArray],
     branches: Sequence[Branch],
+    show: Callable[[int, float], str] = shown,
 ) -> None:
     """Check the numbers of a table.
 
     Args:
         shares: Shares, shape ``(S, W, A, B, X, Y, K)``.
         sides: Side that the light comes from, S of them.
-        axes: The five axes, metres or direction cosines.
+        axes: The five axes, metres or direction cosines unless `show` knows another unit.
         branches: The K ways out.
+        show: Writes a node for a message, given the number of its axis and its value.
 
     Raises:
         SpecError: The shape is another, or a share is missing, negative, above 1, or the shares of
@@ -90,7 +92,7 @@ def check_shares(
     def complain(bad: BoolArray, rule: str, values: FloatArray) -> None:
         if bad.any():
             place = tuple(np.argwhere(bad)[0].tolist())
-            where = _where(place, sides, axes, branches)
+            where = _where(place, sides, axes, branches, show)
             raise SpecError(f"efficiency: {rule}, got {float(values[place]):.6g} at {where}")
 
     complain(np.isnan(shares), "must have a number at every node", shares)
@@ -106,10 +108,11 @@ def _where(
     sides: Sequence[str],
     axes: Sequence[FloatArray],
     branches: Sequence[Branch],
+    show: Callable[[int, float], str],
 ) -> str:
     words = [f"incidence {sides[place[0]]}"]
     words += [
-        shown(axis, float(nodes[place[1 + axis]]))
+        show(axis, float(nodes[place[1 + axis]]))
         for axis, nodes in enumerate(axes)
         if len(nodes) > 1
     ]

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The error of a table, measured at random points that it was not made of."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
@@ -59,7 +59,21 @@ def measured(grid: NodeGrid, table: EfficiencyTable, rng: np.random.Generator, c
     Returns:
         What was found where something is recorded and propagates.
     """
-    nodes = grid.random(rng, count)
+    check = errors_at(grid, table, grid.random(rng, count))
+    return replace(check, near_cutoff=near_cutoff(grid.source, table, check.nodes))
+
+
+def errors_at(grid: NodeGrid, table: EfficiencyTable, nodes: FloatArray) -> Check:
+    """Compare a table with the model at given points, none of which counts as near a cut-off.
+
+    Args:
+        grid: The grid that the table was made on.
+        table: The table.
+        nodes: The points, shape ``(N, 6)``.
+
+    Returns:
+        What was found where something is recorded and propagates.
+    """
     truth, passing = grid.source.at(nodes)
     known = np.isfinite(truth).all(axis=-1) & passing[:, : truth.shape[1]].any(axis=-1)
     nodes, truth, passing = nodes[known], truth[known], passing[known]
@@ -67,7 +81,13 @@ def measured(grid: NodeGrid, table: EfficiencyTable, rng: np.random.Generator, c
     side = np.searchsorted(np.asarray(grid.fronts), nodes[:, 0])
     found = interpolate(table.values, side, cells)
     error = np.where(passing[:, : truth.shape[1]], np.abs(found - truth), 0.0)
-    return Check(nodes, error.max(axis=-1, initial=0.0), near_cutoff(grid.source, table, nodes))
+    return Check(nodes, error.max(axis=-1, initial=0.0), np.zeros(len(nodes), dtype=np.bool_))
+
+
+def joined(first: Check, second: Check) -> Check:
+    """Put two measurements together."""
+    names = ("nodes", "error", "near_cutoff")
+    return Check(*(np.concatenate((getattr(first, n), getattr(second, n))) for n in names))
 
 
 def near_cutoff(source: NodeSource, table: EfficiencyTable, nodes: FloatArray) -> BoolArray:

@@ -6,7 +6,8 @@ Inside the emulsion both waves keep the tangential part of n s and follow Snell'
 K = k_O - k_R. Development leaves a layer of thickness ``d (1 - s)``, in which K along the normal is
 K_z / (1 - s). Light enters by Snell's law too. Two-wave theory (`kogelnik`) then gives the orders
 +1 and -1 of each exposure; `sharing` puts them together. Reflection at the faces of the emulsion is
-left out.
+left out, but for total reflection where it is asked for: an order that cannot leave on its own side
+is given to the other, without what it does to the grating on its way back.
 
 Rays are n s, wave vectors times lambda / (2 pi), and gratings Q = K / (2 pi), in the frame of
 `Incidence`, whose z is turned so that the light runs toward +z.
@@ -72,6 +73,8 @@ class VolumeGrating:
         absorption: alpha, of the amplitude, 1/m; the power falls by exp(-2 alpha) a metre.
         normal_frequency: Grating frequency along the normal, 1/m, as recorded; only for a pattern
             that is given outright and does not know it.
+        total_internal_reflection: Whether an order +1 or -1 beyond the critical angle of the side
+            that it runs to leaves on the other side, if it can.
     """
 
     thickness: Quantity
@@ -81,6 +84,7 @@ class VolumeGrating:
     index_shift: float = 0.0
     absorption: float = 0.0
     normal_frequency: float = 0.0
+    total_internal_reflection: bool = False
 
     def shares(
         self,
@@ -106,6 +110,18 @@ class VolumeGrating:
             mode = self._mode(branches, light, inside, vectors, along_fringes=along_fringes)
             found += part[..., None] * mode
         return np.where(inside.enters[..., None], found, 0.0)
+
+    def fringes(self, light: Incidence) -> tuple[FloatArray, list[FloatArray]]:
+        """Return what decides whether light is on Bragg, after development.
+
+        Args:
+            light: The light, shape ``(...)``.
+
+        Returns:
+            The index of the layer, shape ``(...)``, and the grating vector of each exposure over
+            2 pi, 1/m, z along the light, shape ``(..., 3)``; NaN where none was recorded.
+        """
+        return self._inside(light).index, [self._grating(each, light) for each in self.exposures]
 
     def _inside(self, light: Incidence) -> _Light:
         index = self._index(light.wavelength) + self.index_shift
@@ -212,7 +228,17 @@ class VolumeGrating:
             self.absorption,
             inside.depth,
         )
-        return Taken(wave, rest), leaving[..., 2] < 0.0
+        return Taken(wave, rest), self._leaves_back(leaving, light)
+
+    def _leaves_back(self, leaving: FloatArray, light: Incidence) -> BoolArray:
+        """Whether an order inside the emulsion leaves on the side that the light comes from."""
+        back = leaving[..., 2] < 0.0
+        if not self.total_internal_reflection:
+            return back
+        squared = dot(leaving[..., :2], leaving[..., :2])
+        here = np.where(back, light.index_in, light.index_out)
+        there = np.where(back, light.index_out, light.index_in)
+        return back ^ ((squared >= here**2) & (squared < there**2))
 
 
 def _at(quantity: Quantity, place: FloatArray) -> FloatArray:

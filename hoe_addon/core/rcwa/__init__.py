@@ -5,6 +5,7 @@
 from .convergence import Converged as Converged
 from .convergence import Structure as Structure
 from .convergence import converge as converge
+from .factorisation import SingularError as SingularError
 from .light import PlaneWaves as PlaneWaves
 from .light import Solution as Solution
 from .profiles import Polygon as Polygon

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: hoe_addon contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""As many harmonics as the result needs: raised until it moves less than is asked for."""
+"""As many harmonics as the result needs: raised until its error is below what is asked for."""
 
 import math
 from collections.abc import Callable
@@ -21,12 +21,15 @@ DEFAULT_MAXIMUM = 401
 """Harmonics at which a search gives up unless told otherwise."""
 
 _GROWTH = 1.5
-"""Factor from one number to the next. An error that falls with its square is then smaller than the
-last step of the result."""
+"""Factor from one number to the next."""
 _LEAST = 4
 """Highest order of the first try, at least."""
 _BEYOND = 2
 """Evanescent orders on either side of the propagating ones in the first try."""
+_HOPED_ORDER = 3.0
+"""Power of the number of harmonics that an error may still come to fall with. What falls more
+slowly by then is not expected to get there; what has fallen faster is taken at its word."""
+_ADVICE = "give harmonics as a number"
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +38,8 @@ class Converged:
 
     Attributes:
         solution: Orders -M .. M of all waves.
-        error: How far an efficiency moved in either of the last two steps, at most, shape ``(B,)``.
+        error: Bound of the error of any efficiency, from the last two steps, shape ``(B,)``; see
+            `converge`.
         harmonics: Number of harmonics of each wave's result, shape ``(B,)``.
     """
 
@@ -54,16 +58,19 @@ def converge(
     accept: bool = False,
     progress: Progress | None = None,
 ) -> Converged:
-    """Solve with more and more harmonics until no efficiency moves by more than the tolerance.
+    """Solve with more and more harmonics until no efficiency is off by more than the tolerance.
 
-    Two steps in succession have to stay below it, since one may by chance. A wave that has got
-    there is not solved again.
+    Slanted walls in p light, and metals, converge as slowly as 1 / n. Then the error that is left
+    after a step from m to n harmonics is m / (n - m) times the step, twice it or a little more:
+    this is what is compared with the tolerance. Faster convergence leaves less. Two steps in
+    succession have to stay below the tolerance, since one may by chance. A wave that has got there
+    is not solved again. The search ends early if a wave will not get there by the maximum.
 
     Args:
         structure: The stack for a number of harmonics.
         light: The waves.
         highest: Highest order M that the result holds.
-        tolerance: Change of any efficiency that is allowed, above 0.
+        tolerance: Error of any efficiency that is allowed, above 0.
         maximum: Most harmonics to try.
         accept: Return what has been reached at the maximum, with its error, instead of raising.
         progress: Told how far the work is.
@@ -72,7 +79,7 @@ def converge(
         The solution.
 
     Raises:
-        ConvergenceError: If the result still moves at the maximum.
+        ConvergenceError: If the tolerance is not met at the maximum, or will not be.
         SpecError: If an argument is out of range.
     """
     if not 0.0 < tolerance < 1.0:
@@ -81,10 +88,10 @@ def converge(
     search = _Search(light, highest, tolerance)
     for size in sizes:
         search.step(structure(2 * size + 1), size, progress)
-        if search.is_done:
+        if search.is_done or (not accept and search.is_hopeless(2 * sizes[-1] + 1)):
             break
     if not search.is_done and not accept:
-        raise ConvergenceError(search.message())
+        raise ConvergenceError(search.message(maximum))
     return Converged(search.solution, search.error, search.harmonics)
 
 
@@ -100,7 +107,7 @@ def _sizes(stack: Stack, light: PlaneWaves, maximum: int) -> list[int]:
     if needed > last:
         raise ConvergenceError(
             f"harmonics: {2 * math.ceil(needed) + 1} orders propagate, more than the"
-            f" maximum {maximum}"
+            f" maximum {maximum} of auto; {_ADVICE}"
         )
     size = max(_LEAST, math.floor(needed) + _BEYOND)
     sizes: list[int] = []
@@ -121,7 +128,9 @@ class _Search:
         count = len(light)
         self._last: Solution | None = None
         self._open = np.arange(count)
-        self._moved = np.full(count, np.inf)
+        self._left = np.full(count, np.inf)
+        self._fallen = np.zeros(count)
+        self._count = 0
         self.error = np.full(count, np.inf)
         self.harmonics = np.zeros(count, dtype=np.int64)
         self.solution = Solution.empty(count, -highest, highest)
@@ -131,13 +140,20 @@ class _Search:
         """Whether no wave is left."""
         return len(self._open) == 0
 
-    def message(self) -> str:
+    def is_hopeless(self, most: int) -> bool:
+        """Whether a wave that is left will not get there with the most harmonics, as it seems."""
+        order = np.maximum(self._fallen[self._open], _HOPED_ORDER)
+        expected = self._left[self._open] * (self._count / most) ** order
+        several = np.isfinite(self.error[self._open])
+        return bool(np.any(several & (expected > self._tolerance)))
+
+    def message(self, maximum: int) -> str:
         """What is wrong with the waves that are left."""
         worst = float(np.max(self.error[self._open]))
-        count = int(self.harmonics[self._open[0]])
         return (
-            f"harmonics: must bring the result to {self._tolerance:g}, but it still moves by"
-            f" {worst:.2g} at {count} harmonics"
+            f"harmonics: must bring the result to {self._tolerance:g}, but it may be off by"
+            f" {worst:.2g} at {self._count} harmonics, and auto takes {maximum} at most; {_ADVICE},"
+            " or a larger tolerance"
         )
 
     def step(self, stack: Stack, size: int, progress: Progress | None) -> None:
@@ -150,18 +166,25 @@ class _Search:
                 progress(1.0 - len(self._open) / count)
 
         found = solve(stack, self._light.only(self._open), 2 * size + 1, tell)
-        moved = _moved(self._last, found) if self._last else np.full(len(self._open), np.inf)
-        self._store(found, moved, 2 * size + 1)
+        left = np.full(len(self._open), np.inf)
+        if self._last:
+            left = _moved(self._last, found) * self._count / (2 * size + 1 - self._count)
+        self._store(found, left, 2 * size + 1)
         settled = self.error[self._open] < self._tolerance
         self._open = self._open[~settled]
         self._last = found.only(~settled)
         tell(1.0)
 
-    def _store(self, found: Solution, moved: FloatArray, harmonics: int) -> None:
-        index = self._open
-        self.error[index] = np.maximum(moved, self._moved[index])
-        self._moved[index] = moved
+    def _store(self, found: Solution, left: FloatArray, harmonics: int) -> None:
+        index, before = self._open, self._left[self._open]
+        self.error[index] = np.maximum(left, before)
+        known = np.isfinite(before) & np.isfinite(left) & (before > 0.0) & (left > 0.0)
+        ratio = np.divide(before, left, where=known, out=np.ones(len(index)))
+        if self._count:
+            self._fallen[index] = np.log(ratio) / np.log(harmonics / self._count)
+        self._left[index] = left
         self.harmonics[index] = harmonics
+        self._count = harmonics
         ends = (int(self.solution.orders[0]), int(self.solution.orders[-1]))
         for target, values in zip(self.solution.arrays, found.span(*ends).arrays, strict=True):
             target[index] = values

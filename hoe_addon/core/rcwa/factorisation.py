@@ -17,6 +17,7 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
+from ..errors import SpecError
 from .stack import Lamellar, Smooth
 
 type Matrix = FloatArray | ComplexArray
@@ -24,6 +25,12 @@ type Matrix = FloatArray | ComplexArray
 
 _EVEN = 1e-14
 """A coefficient whose imaginary part is below this is real: the pattern is even in x."""
+_SINGULAR = 1e14
+"""Condition from which on nothing is left of the digits of an inverse."""
+
+
+class SingularError(SpecError):
+    """Permittivities of both signs cancel in the mean, so that there are no modes."""
 
 
 class Factors:
@@ -66,8 +73,25 @@ class Factors:
 
     @cached_property
     def direct_inverse(self) -> Matrix:
-        """Inverse of `direct`."""
-        return np.linalg.inv(self.direct)
+        """Inverse of `direct`.
+
+        Raises:
+            SingularError: If there is none.
+        """
+        try:
+            inverse = np.linalg.inv(self.direct)
+        except np.linalg.LinAlgError as error:
+            raise SingularError(self._singular()) from error
+        size = _row_sum(self.direct) * _row_sum(inverse)
+        if self.lossless or np.all(size < _SINGULAR):
+            return inverse
+        raise SingularError(self._singular())
+
+    def _singular(self) -> str:
+        return (
+            f"harmonics: the permittivities of a layer average to zero with {self._count} of them;"
+            " harmonics or indices must be changed"
+        )
 
     @cached_property
     def reciprocal(self) -> Matrix:
@@ -75,6 +99,11 @@ class Factors:
         if not self._jumps:
             return self.direct_inverse
         return _toeplitz((1.0 / self._values) @ self._basis, self._count)
+
+
+def _row_sum(matrices: Matrix) -> FloatArray:
+    """Largest row sum of each matrix, a norm."""
+    return np.abs(matrices).sum(axis=-1).max(axis=-1)
 
 
 def _toeplitz(series: Matrix, count: int) -> Matrix:

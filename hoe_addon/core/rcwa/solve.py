@@ -10,7 +10,9 @@ import numpy as np
 
 from ..arrays import ComplexArray, FloatArray, IntArray
 from ..errors import SpecError
+from ..units import m_to_nm
 from .blas import one_thread
+from .factorisation import SingularError
 from .halfspace import HalfSpace
 from .light import PlaneWaves, Solution
 from .modes import LseModes, LsmModes, lse_modes, lsm_modes
@@ -70,6 +72,7 @@ def solve(
     Raises:
         SpecError: If the number of harmonics is even or out of range, a permittivity is missing
             or 0, or the light comes out of an absorbing half space or past its grazing angle.
+        SingularError: If the permittivities of a layer cancel.
     """
     _check(stack, light, harmonics)
     count, highest = len(light), harmonics // 2
@@ -85,8 +88,11 @@ def solve(
         seen = stack if bool(part.from_front[0]) else stack.turned()
         problem = _Problem(seen, part, centre[chosen], highest)
         with one_thread() if harmonics < _THREADS_FROM else nullcontext():
-            for channel in (Channel.BOTH,) if conical else (Channel.ALONG, Channel.ACROSS):
-                problem.solve(channel)
+            try:
+                for channel in (Channel.BOTH,) if conical else (Channel.ALONG, Channel.ACROSS):
+                    problem.solve(channel)
+            except SingularError as error:
+                raise SingularError(f"{error}, {_at(part)}") from error
         places = centre[chosen, None] - first + np.arange(harmonics)
         for target, values in zip(result.arrays, problem.results(), strict=True):
             target[chosen[:, None], places] = values
@@ -121,6 +127,12 @@ def _check(stack: Stack, light: PlaneWaves, harmonics: int) -> None:
         raise SpecError(
             f"tangential part: must be at most the index {index:g}, got {size[worst]:g}"
         )
+
+
+def _at(light: PlaneWaves) -> str:
+    """Where something happens, in words."""
+    first, last = (float(m_to_nm(f(light.wavelength))) for f in (np.min, np.max))
+    return f"got {first:g} nm" if first == last else f"got one from {first:g} to {last:g} nm"
 
 
 def _chunks(light: PlaneWaves, harmonics: int) -> list[tuple[IntArray, bool]]:

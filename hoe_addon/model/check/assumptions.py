@@ -38,6 +38,8 @@ LEAST_RHO = 10.0
 MOST_STRENGTH = np.pi / 2.0
 MOST_FRESNEL = 0.01
 MOST_LOSS = 1e-8
+LEAST_KEPT = 0.99
+"""Light that two-wave theory may not lose without absorption: it goes where nothing leaves."""
 
 _GRAZING = 1e-3
 """Square of the least cosine of light inside a relief: it need not propagate there."""
@@ -94,6 +96,7 @@ def findings(spec: HologramSpec, lit: Lit, models: list[ModelShares]) -> list[Fi
         if isinstance(efficiency, KinoformSpec):
             found += _thin(efficiency, lit)
         elif isinstance(efficiency, KogelnikSpec):
+            found += _kept(efficiency, lit, model)
             found += _thick(efficiency, lit, own=model.candidate.own)
         elif isinstance(efficiency, RcwaSpec):
             found += _converged(efficiency, lit, model)
@@ -112,6 +115,27 @@ def _energy(lit: Lit, model: ModelShares) -> Finding:
         words = "energy that goes out more than comes in, of s or p light"
         found = _most(lit, name, "R + T - 1", (-lost).max(axis=1), MOST_LOSS, words)
     return replace(found, breach="does not keep the energy")
+
+
+def _kept(volume: KogelnikSpec, lit: Lit, model: ModelShares) -> list[Finding]:
+    """R + T of an emulsion that does not absorb: what is missing goes where nothing leaves."""
+    if volume.absorption_per_mm > 0.0:
+        return []
+    light = lit.incidence
+    kept = 1.0 - absorbed(model).mean(axis=1)
+    words = "light that leaves the hologram, which does not absorb"
+    found = _least(lit, "kogelnik", "R + T", kept, LEAST_KEPT, words)
+    worst = int(np.argmin(kept))
+    index = medium_from(volume.index).index(light.wavelength) + volume.index_shift
+    outside = np.sum(light.tangential**2, axis=-1) >= index**2
+    share = f"{100.0 * (1.0 - found.value):.3g} %"
+    if bool(outside[worst]):
+        breach = f"loses light, {share} cannot enter the emulsion"
+    else:
+        breach = f"loses light, {share} goes into an order that cannot leave"
+        if not volume.total_internal_reflection:
+            breach += "; set total_internal_reflection"
+    return [replace(found, breach=breach)]
 
 
 def _is_lossless(grating: RcwaSpec, lit: Lit) -> bool:

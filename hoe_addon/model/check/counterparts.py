@@ -135,6 +135,8 @@ def kogelnik_of_rcwa(own: RcwaSpec, lit: Lit) -> KogelnikSpec:
         index=index,
         modulation=fringes.modulation,
         normal_period_um=None if upright else 1.0 / fringes.normal / UM,
+        # The rigorous solution knows of total reflection.
+        total_internal_reflection=True,
     )
 
 

@@ -11,6 +11,11 @@ from ..field_error import FieldError
 from .haze import HazeSpec
 
 LEAST_TOLERANCE, MOST_TOLERANCE = 1e-6, 0.1
+VISIBLE_NM = (380.0, 780.0)
+WIDEST_DEG = 78.5
+"""Nearer to grazing, shares change too fast for a table, and hardly any light goes there."""
+
+_NARROWEST_DEG = 1.0
 
 
 class LookupSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -23,17 +28,32 @@ class LookupSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
             node by its bilinear weight, then one order by its share there. A formula has no nodes,
             so it is left as it is.
         tolerance: Largest interpolation error of a table, absolute in the share.
+        angle_deg: Largest angle to the normal, in the medium that a ray comes from, for which a
+            table is made, degrees; a narrow cone gives a better table. Beyond it the shares of
+            its rim hold.
+        wavelengths_nm: First and last vacuum wavelength for which a table is made, nm; beyond them
+            the shares at the ends hold.
     """
 
     form: Literal["auto", "formula", "table"] = "auto"
     choice: Literal["bilinear", "stochastic"] = "bilinear"
     tolerance: float = 1e-3
+    angle_deg: float = WIDEST_DEG
+    wavelengths_nm: tuple[float, float] = VISIBLE_NM
 
     def __post_init__(self) -> None:
-        """Check the choices and the tolerance."""
+        """Check all fields."""
         field_kinds.choice(self, "form", ("auto", "formula", "table"))
         field_kinds.choice(self, "choice", ("bilinear", "stochastic"))
         fields.number(self, "tolerance", at_least=LEAST_TOLERANCE, at_most=MOST_TOLERANCE)
+        fields.number(self, "angle_deg", at_least=_NARROWEST_DEG, at_most=WIDEST_DEG)
+        fields.vector(self, "wavelengths_nm", 2)
+        ends = [
+            fields.wavelength_value(f"wavelengths_nm[{place}]", value)
+            for place, value in enumerate(self.wavelengths_nm)
+        ]
+        if not ends[0] < ends[1]:
+            raise FieldError("wavelengths_nm", "must increase", self.wavelengths_nm)
 
 
 class CommonFields(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -41,7 +61,8 @@ class CommonFields(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
 
     Attributes:
         total_internal_reflection: Whether the share of the transmitted order 0 is reflected into
-            order 0 where the transmitted one is evanescent.
+            order 0 where the transmitted one is evanescent; of ``kogelnik`` the orders +1 and -1
+            too, to the side on which they can leave.
         haze: Scattering of a share of each order around its direction; None for none.
         lookup: How the shader gets at the shares; None for the defaults.
     """

@@ -26,6 +26,7 @@ MOST_EXPOSURES = 7
 
 _ORDERS = (-1, 0, 1)
 _LARGEST_CHANGE = 0.5
+_LARGEST_MODULATION = 1.0
 _LEAST_PERIOD_UM = 0.01
 
 
@@ -45,7 +46,7 @@ class ExposureSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
     def __post_init__(self) -> None:
         """Check all fields."""
         fields.wavelength(self, "wavelength_nm")
-        varying.check(self, "modulation", at_least=0.0)
+        varying.check(self, "modulation", at_least=0.0, at_most=_LARGEST_MODULATION)
         fields.number(self, "absorption_modulation_per_mm", at_least=0.0)
 
 
@@ -80,7 +81,7 @@ class KogelnikSpec(CommonFields, frozen=True, kw_only=True, tag_field="model", t
         """Check what does not depend on the pattern."""
         varying.check(self, "thickness_um", above=0.0)
         medium.check(self, "index")
-        varying.check(self, "modulation", at_least=0.0)
+        varying.check(self, "modulation", at_least=0.0, at_most=_LARGEST_MODULATION)
         for field in ("shrinkage", "index_shift"):
             fields.number(self, field, at_least=-_LARGEST_CHANGE, at_most=_LARGEST_CHANGE)
         fields.number(self, "absorption_per_mm", at_least=0.0)
@@ -125,6 +126,10 @@ class KogelnikSpec(CommonFields, frozen=True, kw_only=True, tag_field="model", t
         for place, exposure in enumerate(self.exposures):
             path = f"exposures[{place}].modulation"
             varying.check_on(exposure.modulation, path, surface, at_least=0.0)
+        # Nowhere may the index fall to that of the vacuum.
+        strengths = [self.modulation, *(each.modulation for each in self.exposures)]
+        if any(strengths):
+            varying.check_sum(strengths, "modulation", surface, below=index - 1.0)
 
     def _check_recording(self, pattern: RecordingSpec) -> None:
         if self.normal_period_um is not None:
@@ -192,4 +197,5 @@ class KogelnikSpec(CommonFields, frozen=True, kw_only=True, tag_field="model", t
             index_shift=self.index_shift,
             absorption=self.absorption_per_mm / MM,
             normal_frequency=0.0 if period is None else 1.0 / (period * UM),
+            total_internal_reflection=self.total_internal_reflection,
         )

@@ -26,7 +26,7 @@ def settle_orders(owner: Struct, efficiency: EfficiencySpec) -> None:
     if not orders:
         orders = efficiency.listed_orders()
     if not orders:
-        raise FieldError("orders", "must list at least one order", orders)
+        raise FieldError.told("orders", "is missing")
     if len(orders) > fields.MAX_ORDERS:
         raise FieldError("orders", f"must list at most {fields.MAX_ORDERS}", len(orders))
     if len(set(orders)) < len(orders):

@@ -25,7 +25,7 @@ from .rcwa_profile import (
     SlantedProfile,
     VolumeProfile,
 )
-from .rcwa_stack import materials_from, stack_from
+from .rcwa_stack import materials_from, most_harmonics, stack_from
 
 AUTO = "auto"
 LEAST_TOLERANCE, MOST_TOLERANCE = 1e-9, 0.1
@@ -64,9 +64,9 @@ class RcwaSpec(CommonFields, frozen=True, kw_only=True, tag_field="model", tag="
         over: Layers between the profile and the front medium, from the back to the front.
         slices: Into how many layers a profile without upright walls is cut; ``auto`` cuts finer
             with more harmonics.
-        harmonics: Number of Fourier harmonics, odd, -N .. N; ``auto`` raises it until the shares
-            move less than the tolerance.
-        tolerance: Largest change of a share between the last numbers of harmonics tried.
+        harmonics: Number of Fourier harmonics, odd, -N .. N; ``auto`` raises it until the error
+            of the shares is below the tolerance.
+        tolerance: Largest error of a share, as the last numbers of harmonics tried show it.
     """
 
     profile: ProfileSpec
@@ -85,7 +85,7 @@ class RcwaSpec(CommonFields, frozen=True, kw_only=True, tag_field="model", tag="
         for field in ("under", "over"):
             structs(self, field, CoatingSpec, 0, _MOST_COATINGS)
         if isinstance(self.slices, str):
-            field_kinds.choice(self, "slices", (AUTO,))
+            self._check_auto("slices")
         else:
             fields.integer(self, "slices", 1, _MOST_SLICES)
         self._check_harmonics()
@@ -107,9 +107,14 @@ class RcwaSpec(CommonFields, frozen=True, kw_only=True, tag_field="model", tag="
         if relief and self.groove is None:
             force_setattr(self, "groove", 1.0)
 
+    def _check_auto(self, field: str) -> None:
+        word = getattr(self, field)
+        if word != AUTO:
+            raise FieldError(field, f"must be {AUTO} or a whole number", word)
+
     def _check_harmonics(self) -> None:
         if isinstance(self.harmonics, str):
-            field_kinds.choice(self, "harmonics", (AUTO,))
+            self._check_auto("harmonics")
         elif fields.integer(self, "harmonics", 1, MAX_HARMONICS) % 2 == 0:
             raise FieldError("harmonics", "must be odd, 2 N + 1, or auto", self.harmonics)
 
@@ -144,4 +149,6 @@ class RcwaSpec(CommonFields, frozen=True, kw_only=True, tag_field="model", tag="
             fixed=not isinstance(self.profile, SlantedProfile | VolumeProfile),
             harmonics=self.harmonics if isinstance(self.harmonics, int) else None,
             tolerance=self.tolerance,
+            maximum=most_harmonics(self),
+            path="efficiency.",
         )

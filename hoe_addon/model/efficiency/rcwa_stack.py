@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...core.arrays import FloatArray
+from ...core.efficiency.rigorous import MAXIMUM
 from ...core.errors import SpecError
 from ...core.material import IndexWave, Material
 from ...core.rcwa import reliefs
@@ -41,6 +42,9 @@ MOST_FRINGES = 5000
 """Slanted fringes from the back of a volume grating to its front; each is many layers."""
 _FEWEST_SLICES = 16
 """Automatic slices are no fewer, however few the harmonics."""
+_MOST_AUTO = 129
+"""Automatic harmonics of a profile that is cut into as many slices: 10 s for one ray of a metal.
+More harmonics with the same slices would settle on a wrong result."""
 
 
 def materials_from(spec: "RcwaSpec") -> tuple[Material | IndexWave, ...]:
@@ -99,6 +103,30 @@ def stack_from(spec: "RcwaSpec", frequency: float, harmonics: int) -> Stack:
     profile = _profile_layers(spec.profile, slices, frequency, place)
     place += len(_profile_materials(spec))
     return Stack((*under, *profile, *_plane_layers(spec.over, place)))
+
+
+def most_harmonics(spec: "RcwaSpec") -> int:
+    """Give the number of harmonics at which a search has to end, so that it ends in some seconds.
+
+    The work grows with the number of layers that differ, and with the harmonics cubed.
+
+    Args:
+        spec: The grating.
+
+    Returns:
+        An odd number.
+    """
+    match spec.profile:
+        case BinaryProfile() | SlantedProfile() | VolumeProfile():
+            return MAXIMUM  # moved copies of one layer
+        case StaircaseProfile(levels=count):
+            pass
+        case LayersProfile(layers=layers):
+            count = len(layers)
+        case _:
+            count = spec.slices if isinstance(spec.slices, int) else _MOST_AUTO
+    most = _MOST_AUTO * (_MOST_AUTO / count) ** (1.0 / 3.0)
+    return min(MAXIMUM, 2 * math.floor(0.5 * most) + 1)
 
 
 def _plane_layers(layers: "tuple[CoatingSpec, ...]", first: int) -> list[Layer]:

@@ -10,7 +10,7 @@ from ...core.efficiency.table import EfficiencyTable
 from ...core.errors import SpecError
 from ...core.orders import Branch
 from .. import field_kinds
-from ..field_error import FieldError
+from ..field_error import FieldError, show
 from ..tables.file import read_table
 from .common import CommonFields
 
@@ -73,5 +73,5 @@ class TableSpec(CommonFields, frozen=True, kw_only=True, tag_field="model", tag=
         try:
             table = read_table(self.file)
         except SpecError as error:
-            raise FieldError("file", str(error), self.file) from error
+            raise FieldError.told("file", f"{error}, in {show(self.file)}") from error
         return table if self.beyond is None else replace(table, beyond=self.beyond)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers of a model that may vary over the element: a number, or a formula of the place."""
 
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import Annotated
 
@@ -49,7 +50,12 @@ type Varying = float | PlaceFormula
 
 
 def check(
-    owner: Struct, field: str, *, at_least: float | None = None, above: float | None = None
+    owner: Struct,
+    field: str,
+    *,
+    at_least: float | None = None,
+    above: float | None = None,
+    at_most: float | None = None,
 ) -> None:
     """Check a number that may be a formula; what the formula gives is looked at in `check_on`.
 
@@ -58,12 +64,13 @@ def check(
         field: Name of the field.
         at_least: Smallest number allowed, if any.
         above: Number that must be exceeded, if any.
+        at_most: Largest number allowed, if any.
 
     Raises:
         FieldError: It is neither, or the number is outside the bounds.
     """
     if not isinstance(getattr(owner, field), PlaceFormula):
-        fields.number(owner, field, at_least=at_least, above=above)
+        fields.number(owner, field, at_least=at_least, above=above, at_most=at_most)
 
 
 def check_on(
@@ -96,9 +103,10 @@ def check_on(
     trouble = find_trouble(value.parsed(), (-width, width, -height, height), inside)
     if trouble is not None:
         where = f"at x = {trouble.x:.6g} mm, y = {trouble.y:.6g} mm {trouble.what}"
-        raise FieldError(path, f"must have a smooth value all over the surface: {where}", value)
-    steps = np.linspace(-1.0, 1.0, _LOOKED_AT)
-    x, y = np.meshgrid(width * steps, height * steps)
+        raise FieldError(
+            path, f"must have a smooth value all over the surface: {where}", value.formula
+        )
+    x, y = _places(surface)
     found = np.where(inside(x, y), value.parsed().at(x, y), np.inf)
     lowest = np.unravel_index(np.argmin(found), found.shape)
     least = float(found[lowest])
@@ -107,6 +115,42 @@ def check_on(
         raise FieldError(path, f"must be above {above:g} {where}", least)
     if at_least is not None and least < at_least:
         raise FieldError(path, f"must be at least {at_least:g} {where}", least)
+
+
+def check_sum(values: Sequence[Varying], path: str, surface: SurfaceSpec, below: float) -> None:
+    """Check that the sum of numbers or formulas stays below a bound all over an element.
+
+    Args:
+        values: The numbers and formulas.
+        path: Path of the field, for the message.
+        surface: The element's surface.
+        below: Number that the sum must stay below.
+
+    Raises:
+        FieldError: It does not; the message says how large it gets.
+    """
+    x, y = _places(surface)
+    total = sum((_value(value, x, y) for value in values), np.zeros_like(x))
+    inside = surface.covers(np.stack((x, y, np.zeros_like(x)), axis=-1))
+    most = float(np.max(np.where(inside, total, 0.0)))
+    if most >= below:
+        raise FieldError(
+            path, f"must be below index - 1 = {below:g}, of all exposures in sum", most
+        )
+
+
+def _places(surface: SurfaceSpec) -> tuple[FloatArray, FloatArray]:
+    """X and y in mm of places all over an element."""
+    width, height = (0.5 * side for side in surface.size_mm)
+    steps = np.linspace(-1.0, 1.0, _LOOKED_AT)
+    x, y = np.meshgrid(width * steps, height * steps)
+    return x, y
+
+
+def _value(value: Varying, x: FloatArray, y: FloatArray) -> FloatArray:
+    if isinstance(value, PlaceFormula):
+        return value.parsed().at(x, y)
+    return np.full_like(x, value)
 
 
 def quantity(value: Varying, unit: float) -> Quantity:

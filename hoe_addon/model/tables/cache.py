@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from ...core.efficiency.baked import BakedTable
 from ...core.efficiency.baking import LARGEST
 from ...core.efficiency.table import EfficiencyTable
 from ...core.efficiency.table_check import SIDES
@@ -37,6 +38,7 @@ class KeptTable:
         quantile: Interpolation error that 99 % of random points keep, away from cut-offs.
         error: Largest error of them, which may be larger at other points.
         rms: Root of the mean square of it.
+        landmark_error: Largest error at landmarks, such as light on Bragg.
         cutoff_error: Largest error in cells with a cut-off.
         cutoff_part: Part of all directions that lie in such cells.
         spread: Largest difference of s and p.
@@ -48,13 +50,23 @@ class KeptTable:
     quantile: float
     error: float
     rms: float
+    landmark_error: float
     cutoff_error: float
     cutoff_part: float
     spread: float
     mean_spread: float
 
 
-_NOTES = ("quantile", "error", "rms", "cutoff_error", "cutoff_part", "spread", "mean_spread")
+_NOTES = (
+    "quantile",
+    "error",
+    "rms",
+    "landmark_error",
+    "cutoff_error",
+    "cutoff_part",
+    "spread",
+    "mean_spread",
+)
 
 
 def table_for(
@@ -92,7 +104,7 @@ def kept_table(
         SpecError: The model or a medium has no answer.
     """
     tolerance = (spec.efficiency.lookup or LookupSpec()).tolerance
-    within = TableRange()
+    within = TableRange.of(spec.efficiency.lookup)
     text = f"{table_key(spec, within, backward=backward)} {tolerance!r}"
     key = hashlib.sha256(text.encode()).hexdigest()
     path = cache_folder(folder) / f"table-{key}.exr"
@@ -106,7 +118,7 @@ def kept_table(
         table = made.table
         notes = {name: getattr(made, name) for name in _NOTES}
         if not made.reached:
-            _log.warning("a table of %d numbers has the error %.1e", table.size, made.quantile)
+            _log.warning("%s: %s", spec.name, _shortfall(made))
     with replacing(path) as part:
         write_exr(part, table, {"key": key, **notes})
     kept = _kept(path, key)
@@ -114,6 +126,17 @@ def kept_table(
     if kept is None:
         raise SpecError(f"{path}: cannot be read back")
     return kept
+
+
+def _shortfall(made: BakedTable) -> str:
+    """Words for a table that is not as good as asked for."""
+    return (
+        f"a table of {made.table.size} numbers is within {made.quantile:.1e} for 99 % of the "
+        f"directions away from cut-offs of orders, {made.landmark_error:.1e} on Bragg, and "
+        f"{made.cutoff_error:.1e} beside cut-offs ({100.0 * made.cutoff_part:.0f} % of the "
+        f"directions), where {made.tolerance:g} was asked for; lookup.angle_deg and "
+        "lookup.wavelengths_nm narrow it"
+    )
 
 
 def _own_table(spec: HologramSpec) -> EfficiencyTable | None:

@@ -67,6 +67,8 @@ def read_csv(path: Path) -> EfficiencyTable:
     lines = read_text(path, MOST_BYTES).splitlines()
     while lines and not lines[-1].strip():
         lines.pop()
+    if not lines:
+        raise SpecError("is empty")
     if not 1 < len(lines) <= MOST_NUMBERS + 1:
         raise SpecError(f"rows: must be 1 to {MOST_NUMBERS} below a header, got {len(lines) - 1}")
     names = [name.strip() for name in lines[0].split(",")]

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ...core.efficiency.table import Beyond, EfficiencyTable
-from ...core.efficiency.table_check import AXES, SIDES, Side
+from ...core.efficiency.table_check import AXES, SIDES, Side, check_shares
 from ...core.errors import SpecError
 from ...core.orders import Branch
 from ...core.units import m_to_mm, m_to_nm, mm_to_m, nm_to_m
@@ -50,6 +50,7 @@ class FileTable:
         frequency: Grating frequency of each column over that of the pattern.
         efficiency: Shares, shape ``(S, W, A, B, X, Y, K)``.
         beyond: What holds outside the nodes.
+        names: What the file calls the axes.
     """
 
     axes: tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]
@@ -59,6 +60,7 @@ class FileTable:
     frequency: Sequence[float]
     efficiency: FloatArray
     beyond: str = "clamp"
+    names: Sequence[str] = NAMES
 
 
 def to_core(given: FileTable) -> EfficiencyTable:
@@ -71,10 +73,11 @@ def to_core(given: FileTable) -> EfficiencyTable:
         The table.
 
     Raises:
-        SpecError: Something breaks a rule; the message tells the axis, the row and the value.
+        SpecError: Something breaks a rule; the message tells the place in the words and units of
+            the file, and the value.
     """
     for axis, nodes in enumerate(given.axes):
-        check_nodes(axis, nodes)
+        check_nodes(axis, nodes, given.names[axis])
     _check_columns(given)
     if given.efficiency.size > MOST_NUMBERS:
         raise SpecError(f"efficiency: must hold at most {MOST_NUMBERS} numbers")
@@ -83,6 +86,11 @@ def to_core(given: FileTable) -> EfficiencyTable:
         Branch(order, reflected=side == "R", frequency=frequency)
         for order, side, frequency in columns
     )
+
+    def show(axis: int, node: float) -> str:
+        return f"{given.names[axis]} {node:.6g}"
+
+    check_shares(given.efficiency, given.incidence, given.axes, branches, show)
     wavelength, along, across, x, y = given.axes
     return EfficiencyTable(
         branches,
@@ -119,48 +127,77 @@ def from_core(table: EfficiencyTable) -> FileTable:
     )
 
 
-def check_nodes(axis: int, nodes: FloatArray) -> None:
+def check_nodes(axis: int, nodes: FloatArray, name: str, rows: Sequence[int] | None = None) -> None:
     """Check the nodes of one axis of a file, among them whether the unit can be right.
 
     Args:
         axis: Number of the axis in `NAMES`.
         nodes: Nodes in the unit of the file.
+        name: What the file calls the axis.
+        rows: Row of the file where each node stands first; None where the file lists the nodes.
 
     Raises:
-        SpecError: With the name of the axis, the row and the value.
+        SpecError: With the name of the axis, the row or the entry, and the value.
     """
-    name = NAMES[axis]
     if nodes.ndim != 1 or nodes.size == 0:
         raise SpecError(f"{name}: must be a list of at least one node, got shape {nodes.shape}")
     if axis == 0 and float(np.max(np.abs(nodes))) < _MICROMETRES:
         unit = "metres" if float(np.max(np.abs(nodes))) < _METRES else "um"
         raise SpecError(f"{name}: must be in nm, got {nodes[0]:g}, which looks like {unit}")
-    for row, node in enumerate(nodes.tolist(), start=1):
+    low, high = fields.WAVELENGTH_RANGE_NM
+    for place, node in enumerate(nodes.tolist()):
+        where = f"entry {place + 1}" if rows is None else f"row {rows[place]}"
         if not np.isfinite(node):
-            raise SpecError(f"{name}: must be finite, got {node} in row {row}")
-        if row > 1 and node <= nodes[row - 2]:
-            raise SpecError(
-                f"{name}: must increase, got {node:g} after {nodes[row - 2]:g} in row {row}"
-            )
+            raise SpecError(f"{name}: must be finite, got {node} in {where}")
+        if place and node <= nodes[place - 1]:
+            before = f"{nodes[place - 1]:g}"
+            raise SpecError(f"{name}: must increase, got {node:g} after {before} in {where}")
         if axis in (1, 2) and abs(node) > 90.0:
-            raise SpecError(f"{name}: must be from -90 to 90 degrees, got {node:g} in row {row}")
-        if axis == 0:
-            fields.wavelength_value(f"{name}, row {row}", node)
+            raise SpecError(f"{name}: must be from -90 to 90 degrees, got {node:g} in {where}")
+        if axis == 0 and not low <= node <= high:
+            rule = f"must be from {low:g} to {high:g} nm"
+            raise SpecError(f"{name}: {rule}, got {node:g} in {where}")
 
 
 def _check_columns(given: FileTable) -> None:
     for row, (order, side) in enumerate(zip(given.order, given.side, strict=True), start=1):
-        if abs(order) > fields.MAX_ORDER:
-            rule = f"must be from -{fields.MAX_ORDER} to {fields.MAX_ORDER}"
-            raise SpecError(f"order: {rule}, got {order} in row {row}")
+        check_order(order, f"entry {row}")
         if side not in ("T", "R"):
-            raise SpecError(f"side: must be T or R, got {side[:20]!r} in row {row}")
+            raise SpecError(f"side: must be T or R, got {side[:20]!r} in entry {row}")
     for row, frequency in enumerate(given.frequency, start=1):
-        if not (np.isfinite(frequency) and 0.0 < abs(frequency) < fields.MAX_ORDER):
-            raise SpecError(f"frequency: must be finite and not 0, got {frequency} in row {row}")
+        check_frequency(frequency, f"entry {row}")
     for row, side in enumerate(given.incidence, start=1):
         if side not in SIDES:
-            raise SpecError(f"incidence: must be back or front, got {side[:20]!r} in row {row}")
+            raise SpecError(f"incidence: must be back or front, got {side[:20]!r} in entry {row}")
+
+
+def check_order(order: int, where: str) -> None:
+    """Check one order.
+
+    Args:
+        order: The order.
+        where: Where it stands, for the message.
+
+    Raises:
+        SpecError: It is too high.
+    """
+    if abs(order) > fields.MAX_ORDER:
+        rule = f"must be from -{fields.MAX_ORDER} to {fields.MAX_ORDER}"
+        raise SpecError(f"order: {rule}, got {order} in {where}")
+
+
+def check_frequency(frequency: float, where: str) -> None:
+    """Check one grating frequency over that of the pattern.
+
+    Args:
+        frequency: The ratio.
+        where: Where it stands, for the message.
+
+    Raises:
+        SpecError: It is 0, not finite or too large.
+    """
+    if not (np.isfinite(frequency) and 0.0 < abs(frequency) < fields.MAX_ORDER):
+        raise SpecError(f"frequency: must be finite and not 0, got {frequency} in {where}")
 
 
 def default_axis(axis: int) -> FloatArray:

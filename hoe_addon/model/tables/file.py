@@ -47,6 +47,8 @@ def read_table(file: str) -> EfficiencyTable:
     except (OSError, ValueError) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
         raise SpecError(f"must be a file that exists ({reason})") from error
+    if status.st_size == 0:
+        raise SpecError("is empty")
     if status.st_size > MOST_BYTES:
         raise SpecError(f"must be at most {MOST_BYTES // 2**20} MB")
     return _read(file, status.st_mtime_ns, status.st_size)

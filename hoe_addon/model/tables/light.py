@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The light of a table's nodes at a hologram, and the ranges that a table covers."""
 
+import math
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -13,14 +15,13 @@ from ...core.efficiency.table_check import SIDES, Side
 from ...core.errors import SpecError
 from ...core.units import mm_to_m, nm_to_m
 from ..convert import pattern_from
+from ..efficiency.common import VISIBLE_NM, WIDEST_DEG, LookupSpec
 from ..element import element_shape
 from ..evaluate import centre_mm
 from ..hologram import HologramSpec
 from ..medium import medium_from
 
-VISIBLE_NM = (380.0, 780.0)
-WIDEST_COSINE = 0.98
-"""Nearer to grazing, shares change too fast for a table, and hardly any light goes there."""
+WIDEST_COSINE = math.sin(math.radians(WIDEST_DEG))
 
 _LOOKED_AT = 9
 _ALIKE = 1e-9
@@ -42,6 +43,20 @@ class TableRange:
     along: tuple[float, float] = (-WIDEST_COSINE, WIDEST_COSINE)
     across: tuple[float, float] = (-WIDEST_COSINE, WIDEST_COSINE)
     sides: tuple[Side, ...] = SIDES
+
+    @classmethod
+    def of(cls, lookup: LookupSpec | None) -> Self:
+        """What the shader's table covers.
+
+        Args:
+            lookup: The look-up of a model; None for the defaults.
+
+        Returns:
+            Its wavelengths, and all directions of its cone, from both sides.
+        """
+        asked = lookup or LookupSpec()
+        cosine = math.sin(math.radians(asked.angle_deg))
+        return cls(asked.wavelengths_nm, (-cosine, cosine), (-cosine, cosine))
 
     @property
     def radius(self) -> float:

@@ -15,15 +15,18 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ...core.efficiency import Polarization
-from ...core.efficiency.baking import LARGEST, BakedTable, bake
+from ...core.efficiency.baked import BakedTable
+from ...core.efficiency.baking import LARGEST, bake
 from ...core.efficiency.node_source import NODE, NodeSource
 from ...core.errors import SpecError
 from ...files import replacing
+from ..efficiency import KogelnikSpec
 from ..hologram import HologramSpec
+from .landmarks import landmarks
 from .light import TableRange, node_source, ranges
 from .npz import read_arrays
 
-FORMAT = 2
+FORMAT = 3
 """Raised whenever the same hologram gives another table."""
 
 _SAVE_SECONDS = 20.0
@@ -70,7 +73,9 @@ def bake_hologram(
     keeper = _Keeper(source, part, table_key(spec, covered, polarization, backward=backward))
     source.notice = _Teller(progress, keeper)
     try:
-        made = bake(source, covered.sides, ranges(spec, covered), tolerance, largest, checks)
+        ends = ranges(spec, covered)
+        peaks = landmarks(spec, source, covered.sides, ends)
+        made = bake(source, covered.sides, ends, tolerance, largest, checks, peaks)
     except BaseException:
         # Whatever stops the work, what has been evaluated is worth keeping.
         keeper.save()
@@ -99,8 +104,11 @@ def table_key(
         SHA-256 of its canonical text, and of the files named in it.
     """
     efficiency = msgspec.to_builtins(spec.efficiency)
-    for name in ("total_internal_reflection", "haze", "lookup"):
+    for name in ("haze", "lookup"):
         efficiency.pop(name, None)
+    if not isinstance(spec.efficiency, KogelnikSpec):
+        # All other models leave the fold to what the shares are used for.
+        del efficiency["total_internal_reflection"]
     data = {
         "format": FORMAT,
         "efficiency": efficiency,

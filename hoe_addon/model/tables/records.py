@@ -10,7 +10,14 @@ import numpy as np
 from ...core.arrays import FloatArray, IntArray
 from ...core.efficiency.table_check import SIDES
 from ...core.errors import SpecError
-from .edges import MOST_NUMBERS, NAMES, FileTable
+from .edges import (
+    MOST_NUMBERS,
+    NAMES,
+    FileTable,
+    check_frequency,
+    check_nodes,
+    check_order,
+)
 
 type Column = tuple[int, str, float]
 """Order, side, and grating frequency over that of the pattern."""
@@ -51,7 +58,11 @@ def gridded(rows: Records) -> FileTable:
         SpecError: A node is missing, or stands twice with different shares.
     """
     _check_rows(rows)
-    axes = [np.unique(rows.values[:, axis]) for axis in range(len(NAMES))]
+    axes: list[FloatArray] = []
+    for axis, name in enumerate(NAMES):
+        nodes, first = np.unique(rows.values[:, axis], return_index=True)
+        check_nodes(axis, nodes, name, [rows.first_row + int(place) for place in first])
+        axes.append(nodes)
     sides = [side for side in SIDES if side in set(rows.incidence)]
     columns = list(dict.fromkeys(rows.columns))
     shape = (len(sides), *(len(axis) for axis in axes), len(columns))
@@ -100,6 +111,9 @@ def _check_rows(rows: Records) -> None:
             raise SpecError(
                 f"{name}: must be finite, got {column[row]} in row {row + rows.first_row}"
             )
+    for row, (order, _, frequency) in enumerate(rows.columns, start=rows.first_row):
+        check_order(order, f"row {row}")
+        check_frequency(frequency, f"row {row}")
     low = np.flatnonzero(rows.efficiency < 0.0)
     if len(low):
         row = int(low[0])

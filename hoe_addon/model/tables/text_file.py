@@ -103,7 +103,7 @@ def read_text_table(path: Path) -> EfficiencyTable:
         for axis, name in enumerate(_AXES)
     )
     for axis, nodes in enumerate((wavelength, along, across, x, y)):
-        check_nodes(axis, nodes)
+        check_nodes(axis, nodes, _AXES[axis])
     incidence = lists.get("Incidence", ["back"])
     rows = len(along) * len(across) * len(x) * len(y)
     size = len(incidence) * len(wavelength) * rows * len(orders)
@@ -126,6 +126,7 @@ def read_text_table(path: Path) -> EfficiencyTable:
             frequency,
             np.asarray(blocks).reshape(shape),
             words.get("Beyond", "clamp"),
+            _AXES,
         )
     )
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.arrays import FloatArray
+from ...core.efficiency.baking import LARGEST
 from ...core.efficiency.table import EfficiencyTable
 from ...core.errors import SpecError
 from ...core.orders import Branch
@@ -20,9 +21,6 @@ from ...core.units import m_to_mm, m_to_nm
 from ..part import SocketValues, parameter
 from ..source import array
 from .part import EfficiencyPart
-
-LARGEST = 65_536
-"""Most numbers of a table in a text; constant arrays much above it stop the compiler."""
 
 _DRAW_WAY = 0
 """Dimension of the number that draws the way out; those of the axes follow it."""

@@ -62,10 +62,11 @@ def _share(way: Branch, ways: dict[Branch, int], model: KogelnikSpec) -> str:
     exposure = -1 if way.order == 0 else (ways[way] - 1) // 4
     side = "HOE_REFLECTED" if way.reflected else "HOE_TRANSMITTED"
     count = 1 + len(model.exposures)
+    folds = int(model.total_internal_reflection)
     return (
         "hoe_volume_share(light_x, light_y, light_from_back, emulsion_gratings, emulsion_real, "
         f"emulsion_imag, {count}, emulsion_index, emulsion_phase, emulsion_loss, "
-        f"{exposure}, {way.order}, {side})"
+        f"index_back, index_front, {folds}, {exposure}, {way.order}, {side})"
     )
 
 
