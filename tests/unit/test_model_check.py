@@ -365,3 +365,14 @@ def test_plain_data_has_everything() -> None:
     assert rigorous["T"]["u"] + rigorous["R"]["u"] + rigorous["A"]["u"] == pytest.approx(1.0)
     assert plain["warnings"] == found.warnings()
     assert {entry["name"] for entry in plain["assumptions"]} >= {"Q'", "rho", "nu", "error reached"}
+
+
+@pytest.mark.parametrize(("duty", "holds"), [(0.1, False), (0.9, False), (0.5, True), (0.42, True)])
+def test_scalar_theory_needs_wide_ridges_too(duty: float, holds: bool) -> None:
+    """15 wavelengths of period: a ridge of 1.5 is off by 20 % in the rigorous solution."""
+    profile = {"profile": {"shape": "binary", "duty": duty}, "depth_waves": 0.5}
+    spec = hologram(KINOFORM | {"levels": 0} | profile, 1e3 / (15.0 * 0.532))
+    found = finding(report(spec), "feature / wavelength", "kinoform")
+    assert found.holds is holds
+    narrow = 1.0 if holds else min(duty, 1.0 - duty)
+    assert found.value == pytest.approx(15.0 * narrow, rel=1e-6)

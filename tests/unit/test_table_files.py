@@ -422,3 +422,26 @@ def test_mistakes_of_a_document_name_the_field(tmp_path: Path, rng: np.random.Ge
     write_table(tmp_path / "table.npz", sample(rng))
     with pytest.raises(SpecError, match=r"efficiency.beyond: must be one of clamp, zero"):
         load_hologram(hologram(tmp_path, model="table", file="table.npz", beyond="wrap"))
+
+
+@pytest.mark.parametrize(("azimuth_deg", "fits"), [(0.0, True), (180.0, False), (30.0, False)])
+def test_angles_of_the_element_fit_a_grating_along_its_x_only(
+    tmp_path: Path, azimuth_deg: float, fits: bool
+) -> None:
+    """Else +theta and -theta would change places without a word."""
+    path = tmp_path / "t.csv"
+    path.write_text("theta_deg,phi_deg,order,side,efficiency\n-5,0,1,T,0.3\n5,0,1,T,0.5\n")
+    grating = {"kind": "linear", "wavelength_nm": 532, "lines_per_mm": 600}
+    document = {
+        "schema": 1,
+        "name": "element",
+        "surface": {"shape": "plane", "size_mm": [1, 1]},
+        "media": {},
+        "characteristic": grating | {"azimuth_deg": azimuth_deg},
+        "efficiency": {"model": "table", "file": str(path)},
+    }
+    if fits:
+        assert hologram_from(document).orders == (1,)
+        return
+    with pytest.raises(SpecError, match=r"efficiency\.file: must tell along_deg"):
+        hologram_from(document)

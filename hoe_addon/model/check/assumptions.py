@@ -29,7 +29,7 @@ from .fringes import Fringes, of_kogelnik
 from .light import Lit
 from .shares import ModelShares, absorbed, highest_order, propagating
 
-LEAST_PERIODS = 14.0
+LEAST_FEATURE = 14.0
 """Wavelengths in a feature below which scalar theory is off by more than 5 % (Pommet)."""
 MOST_SHADE = 0.05
 """Share of a period that oblique light may cross inside a relief that counts as thin."""
@@ -158,10 +158,10 @@ def _thin(relief: KinoformSpec, lit: Lit) -> list[Finding]:
         _least(
             lit,
             "kinoform",
-            "period / wavelength",
-            periods,
-            LEAST_PERIODS,
-            "scalar theory is within 5 % for features of 14 wavelengths (Pommet 1994)",
+            "feature / wavelength",
+            periods * relief.narrowest,
+            LEAST_FEATURE,
+            "scalar theory is off by some 5 % below features of 14 wavelengths (Pommet 1994)",
         ),
         _most(
             lit,

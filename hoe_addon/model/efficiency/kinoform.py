@@ -16,12 +16,14 @@ from ..field_error import FieldError
 from ..medium import MediumRef, medium_from
 from .common import CommonFields
 from .relief_errors import NO_ERRORS, ReliefErrors, check_together, made_profile
-from .relief_shapes import RELIEF_SHAPES, ReliefShape, SawtoothRelief
+from .relief_shapes import RELIEF_SHAPES, BinaryRelief, ReliefShape, SawtoothRelief
 
 MOST_PIECES = 64
 """Pieces of a profile that the shader sums up by itself."""
 
 _MAX_LEVELS = 1_000_000
+_ABOUT_EQUAL = 0.4
+"""Share of the period from which on ridge and groove count as equal."""
 _DEEPEST_WAVES = 100.0
 
 
@@ -79,6 +81,18 @@ class KinoformSpec(CommonFields, frozen=True, tag_field="model", tag="kinoform")
     def made_profile(self) -> Profile:
         """Make the profile, with the errors of its making except that of the depth."""
         return made_profile(self.profile, self.levels, self.errors or NO_ERRORS)
+
+    @property
+    def narrowest(self) -> float:
+        """Width of the feature that scalar theory has to resolve, in periods.
+
+        It is the period, but of a binary relief the narrower of ridge and groove, unless they are
+        about equal: then what scalar theory is wrong by mostly cancels.
+        """
+        if not isinstance(self.profile, BinaryRelief):
+            return 1.0
+        share = min(self.profile.duty, 1.0 - self.profile.duty)
+        return 1.0 if share >= _ABOUT_EQUAL else share
 
     def listed_orders(self) -> tuple[int, ...]:
         """Give the orders that the model names by itself: none."""

@@ -18,6 +18,7 @@ from .records import Column, Records, gridded
 _NEEDED = ("order", "side", "efficiency")
 _ANGLES = ("theta_deg", "phi_deg")
 _KNOWN = (*NAMES, *_ANGLES, "incidence", "frequency", *_NEEDED)
+_LONGEST_HEADER = 10_000
 _FIRST_ROW = 2
 
 
@@ -119,6 +120,19 @@ def _records(columns: Mapping[str, Sequence[str]], count: int) -> Records:
             raise SpecError(f"side: must be T or R, got {cell[:20]!r} in row {row}")
     ways: list[Column] = list(zip(order, side, frequency, strict=True))
     return Records(values, incidence, ways, _numbers(columns, "efficiency"), _FIRST_ROW)
+
+
+def counts_along_the_element(path: Path) -> bool:
+    """Tell whether directions in a file are told in the frame of the element.
+
+    Args:
+        path: A readable CSV of a table.
+
+    Returns:
+        True for theta_deg and phi_deg, False for angles along the grating.
+    """
+    with path.open(encoding="utf-8-sig", errors="replace") as file:
+        return _ANGLES[0] in [name.strip() for name in file.readline(_LONGEST_HEADER).split(",")]
 
 
 def _along_deg(theta: FloatArray, phi: FloatArray) -> FloatArray:
