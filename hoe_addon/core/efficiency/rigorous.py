@@ -16,6 +16,8 @@ from ..errors import ConvergenceError
 from ..orders import Branch
 from ..rcwa import PlaneWaves, Progress, SingularError, Solution, Stack, converge, solve
 from ..rcwa.blas import one_thread
+from ..rcwa.convergence import DEFAULT_MAXIMUM
+from ..rcwa.solve import THREADS_FROM
 from .incidence import Incidence, Polarization
 from .settling import Settled
 
@@ -24,9 +26,6 @@ type StackOf = Callable[[float, int], Stack]
 type Permittivity = Callable[[FloatArray], ComplexArray]
 """Relative permittivity at vacuum wavelengths in metres, shape to shape."""
 
-MAXIMUM = 401
-"""Harmonics at which a search gives up unless told otherwise."""
-
 _LEAST_PART = 1.0 / 2.25
 """A search takes two steps by 1.5: what it began with has every order that propagates."""
 _GROWTH = 1.2
@@ -34,8 +33,6 @@ _GROWTH = 1.2
 
 _PART_WAVES = 256
 """Waves of one thread at a time."""
-_THREADS_BELOW = 151
-"""With more harmonics the linear algebra has threads of its own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +77,7 @@ class RigorousGrating:
     fixed: bool = True
     harmonics: int | None = None
     tolerance: float = 1e-3
-    maximum: int = MAXIMUM
+    maximum: int = DEFAULT_MAXIMUM
     accept: bool = False
     path: str = ""
 
@@ -235,7 +232,7 @@ def _in_threads(
 ) -> Solution:
     """Solve many waves by parts, in one thread for each processor; orders -M .. M."""
     count = len(light)
-    if count < 2 * _PART_WAVES or harmonics >= _THREADS_BELOW:
+    if count < 2 * _PART_WAVES or harmonics >= THREADS_FROM:
         return solve(stack, light, harmonics, progress).span(-highest, highest)
 
     def answer(part: IntArray) -> Solution:

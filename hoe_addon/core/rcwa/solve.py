@@ -39,7 +39,7 @@ _GRAZING = 1e-12
 """Light may be this far (relative) beyond grazing by rounding."""
 _CHUNK_ENTRIES = 20_000
 """Unless the matrices are tiny: then this many entries of one matrix of all waves."""
-_THREADS_FROM = 151
+THREADS_FROM = 151
 """From so many harmonics on the matrices are worth several threads."""
 _DOUBLE_FROM = 5
 """Runs of fewer equal layers are joined one by one."""
@@ -87,7 +87,7 @@ def solve(
         part = light.only(chosen)
         seen = stack if bool(part.from_front[0]) else stack.turned()
         problem = _Problem(seen, part, centre[chosen], highest)
-        with one_thread() if harmonics < _THREADS_FROM else nullcontext():
+        with one_thread() if harmonics < THREADS_FROM else nullcontext():
             try:
                 for channel in (Channel.BOTH,) if conical else (Channel.ALONG, Channel.ACROSS):
                     problem.solve(channel)

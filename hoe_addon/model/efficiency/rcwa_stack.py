@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...core.arrays import FloatArray
-from ...core.efficiency.rigorous import MAXIMUM
 from ...core.errors import SpecError
 from ...core.material import IndexWave, Material
 from ...core.rcwa import reliefs
+from ...core.rcwa.convergence import DEFAULT_MAXIMUM
 from ...core.rcwa.profiles import Polygon, polygon_layers
 from ...core.rcwa.stack import FRONT, Lamellar, Layer, Repeat, Stack, Uniform
 from ...core.rcwa.volume import volume_layers
@@ -118,7 +118,7 @@ def most_harmonics(spec: "RcwaSpec") -> int:
     """
     match spec.profile:
         case BinaryProfile() | SlantedProfile() | VolumeProfile():
-            return MAXIMUM  # moved copies of one layer
+            return DEFAULT_MAXIMUM  # moved copies of one layer
         case StaircaseProfile(levels=count):
             pass
         case LayersProfile(layers=layers):
@@ -126,7 +126,7 @@ def most_harmonics(spec: "RcwaSpec") -> int:
         case _:
             count = spec.slices if isinstance(spec.slices, int) else _MOST_AUTO
     most = _MOST_AUTO * (_MOST_AUTO / count) ** (1.0 / 3.0)
-    return min(MAXIMUM, 2 * math.floor(0.5 * most) + 1)
+    return min(DEFAULT_MAXIMUM, 2 * math.floor(0.5 * most) + 1)
 
 
 def _plane_layers(layers: "tuple[CoatingSpec, ...]", first: int) -> list[Layer]:
