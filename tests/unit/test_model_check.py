@@ -376,3 +376,12 @@ def test_scalar_theory_needs_wide_ridges_too(duty: float, holds: bool) -> None:
     assert found.holds is holds
     narrow = 1.0 if holds else min(duty, 1.0 - duty)
     assert found.value == pytest.approx(15.0 * narrow, rel=1e-6)
+
+
+def test_strength_is_told_for_transmitted_and_reflected_light_apart() -> None:
+    """Fringes slanted by 45 degrees turn steep light back and let other light pass."""
+    volume = KOGELNIK | {"modulation": 0.2, "normal_period_um": -0.5}
+    spec = hologram(volume, 2000.0)
+    lit = light_on(spec, [532.0], [-40.0, 60.0], [0.0], from_front=False)
+    told = [each for each in check_hologram(spec, lit).findings if each.name == "nu"]
+    assert [each.holds for each in told] == [None, False]

@@ -226,12 +226,17 @@ def _coupling(lit: Lit, fringes: Fringes, ray: FloatArray, index: FloatArray) ->
     with np.errstate(divide="ignore", invalid="ignore"):
         strength = np.pi * fringes.modulation * fringes.thickness / light.wavelength
         strength = strength / np.sqrt(product)
-    if np.any(leaving < 0.0):
+    findings: list[Finding] = []
+    back = leaving < 0.0
+    if np.any(back):
         words = "pi dn d / (lambda sqrt(c_R |c_S|)) of a reflection grating: tanh^2 of it on Bragg"
-        return [_plain(lit, "kogelnik", "nu", strength, words)]
-    words = "pi dn d / (lambda sqrt(c_R c_S)): above pi/2 light comes back into order 0"
-    found = _most(lit, "kogelnik", "nu", strength, float(MOST_STRENGTH), words)
-    return [replace(found, breach="is overmodulated")]
+        findings.append(_plain(lit, "kogelnik", "nu", np.where(back, strength, 0.0), words))
+    if not np.all(back):
+        words = "pi dn d / (lambda sqrt(c_R c_S)): above pi/2 light comes back into order 0"
+        onward = np.where(back, 0.0, strength)
+        found = _most(lit, "kogelnik", "nu", onward, float(MOST_STRENGTH), words)
+        findings.append(replace(found, breach="is overmodulated"))
+    return findings
 
 
 def _fresnel(lit: Lit, model: str, index: FloatArray) -> Finding:
@@ -253,7 +258,7 @@ def _converged(grating: RcwaSpec, lit: Lit, model: ModelShares) -> list[Finding]
     harmonics = _plain(lit, "rcwa", "harmonics", model.harmonics, "number of Fourier harmonics")
     if np.all(np.isnan(model.error)):
         return [harmonics]
-    words = "largest change of a share in the last two steps of the harmonics"
+    words = "bound of what any share is off by, from the last two steps of the harmonics"
     error = np.nan_to_num(model.error)
     found = _most(lit, "rcwa", "error reached", error, grating.tolerance, words)
     return [replace(found, breach="has not converged"), harmonics]
