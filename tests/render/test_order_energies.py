@@ -121,7 +121,7 @@ def test_every_order_gets_the_energy_of_its_model(
     expected = _by_model(spec, direction, wavelength_nm, ways)
     if lookup != "formula":
         table = bake_hologram(spec, TOLERANCE, backward=True, largest=LARGEST).table
-        monkeypatch.setattr(materials, "prepare_table", lambda *_: table)
+        monkeypatch.setattr(materials, "prepare_table", lambda *_, **__: table)
         expected = _by_table(spec, table, direction, wavelength_nm, ways)
     assert np.sum(expected > 0.01) > 1.5 * RAYS
     bench = PathBench(clean_scene, spec, direction, wavelength_nm)
