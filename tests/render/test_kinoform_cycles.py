@@ -216,6 +216,7 @@ EFFICIENCIES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", EFFICIENCIES)
 @pytest.mark.parametrize("back", [1.0, 1.7])
 def test_oblique_rays_against_numpy(rng: np.random.Generator, name: str, back: float) -> None:

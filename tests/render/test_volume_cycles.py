@@ -145,6 +145,7 @@ def random_rays(
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_cycles_gives_what_numpy_gives(name: str, rng: np.random.Generator) -> None:
     spec = hologram(name)
