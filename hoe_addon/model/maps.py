@@ -2,13 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Maps of grad V for the shader: made once, kept in a cache, made anew when missing or damaged."""
 
-import hashlib
 import json
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import cast
 
 import msgspec
 import numpy as np
@@ -19,6 +17,7 @@ from ..core.ray_fitting import fit_rays
 from ..core.units import mm_to_m
 from . import map_cache
 from .characteristic.convert import characteristic_from
+from .contents import digest, with_contents
 from .convert import shape_from
 from .convert_waves import wave_from
 from .map_source import MapSource
@@ -54,7 +53,7 @@ class MapRequest:
             "tolerance": TOLERANCE,
             "largest": LARGEST,
         }
-        return _digest(json.dumps(_with_contents(data), sort_keys=True).encode())
+        return digest(json.dumps(with_contents(data), sort_keys=True).encode())
 
     def gradient(self, points: FloatArray) -> FloatArray:
         """Evaluate the terms exactly.
@@ -129,23 +128,3 @@ def fit_reports(request: MapRequest, points_along_side: int = 65) -> tuple[str, 
         for _, term in request.source.terms
         if isinstance(term, SystemWaveSpec)
     )
-
-
-def _with_contents(data: object) -> object:
-    """Put the hash of what is in a file in the place of its name."""
-    if isinstance(data, dict):
-        return {
-            name: _file_digest(item) if name == "file" else _with_contents(item)
-            for name, item in cast("dict[str, object]", data).items()
-        }
-    if isinstance(data, list | tuple):
-        return [_with_contents(item) for item in cast("list[object]", data)]
-    return data
-
-
-def _file_digest(name: object) -> object:
-    return _digest(Path(name).read_bytes()) if isinstance(name, str) and name else name
-
-
-def _digest(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()

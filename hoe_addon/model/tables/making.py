@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The table of a hologram, made of its own efficiency model, and what a stopped run leaves."""
 
-import hashlib
 import json
 import math
 from collections.abc import Callable
@@ -20,6 +19,7 @@ from ...core.efficiency.baking import LARGEST, bake
 from ...core.efficiency.node_source import NODE, NodeSource
 from ...core.errors import SpecError
 from ...files import replacing
+from ..contents import digest, with_contents
 from ..efficiency import KogelnikSpec
 from ..hologram import HologramSpec
 from .landmarks import landmarks
@@ -120,7 +120,7 @@ def table_key(
         "polarization": polarization.value,
         "backward": backward,
     }
-    return _digest(json.dumps(_with_contents(data), sort_keys=True).encode())
+    return digest(json.dumps(with_contents(data), sort_keys=True).encode())
 
 
 class _Keeper:
@@ -177,23 +177,3 @@ class _Teller:
 
 _TYPICAL_STEPS = 60.0
 """Batches of evaluations of a table of the usual size."""
-
-
-def _with_contents(data: object) -> object:
-    """Put the hash of what is in a file in the place of its name."""
-    if isinstance(data, dict):
-        return {
-            name: _file_digest(item) if name == "file" else _with_contents(item)
-            for name, item in cast("dict[str, object]", data).items()
-        }
-    if isinstance(data, list | tuple):
-        return [_with_contents(item) for item in cast("list[object]", data)]
-    return data
-
-
-def _file_digest(name: object) -> object:
-    return _digest(Path(name).read_bytes()) if isinstance(name, str) and name else name
-
-
-def _digest(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()
