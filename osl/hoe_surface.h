@@ -27,14 +27,15 @@ vector hoe_quadric_normal(vector place, float curvature, vector weights)
 
 // Normal at the hit, in the frame. `exact` is the one that meshes made by the add-on carry in
 // float32, in object space, or zero; Cycles packs the normals of all others into 32 bits, good to
-// some 3e-5 rad, and turns them to the viewer.
+// some 3e-5 rad, and turns them to the viewer. `mapped_x` to `mapped_z` are the frame's axes in the
+// world: a normal goes back by products with them, however the object is scaled or sheared.
 vector hoe_mesh_normal(vector exact, vector shading_normal, int from_behind, vector frame_x, vector frame_y,
-                       vector frame_z)
+                       vector frame_z, vector mapped_x, vector mapped_y, vector mapped_z)
 {
-    vector smooth = exact;
-    if (dot(smooth, smooth) == 0.0)
-        smooth = transform("common", "object", from_behind ? -shading_normal : shading_normal);
-    return normalize(vector(dot(smooth, frame_x), dot(smooth, frame_y), dot(smooth, frame_z)));
+    if (dot(exact, exact) > 0.0)
+        return normalize(vector(dot(exact, frame_x), dot(exact, frame_y), dot(exact, frame_z)));
+    vector smooth = from_behind ? -shading_normal : shading_normal;
+    return normalize(vector(dot(smooth, mapped_x), dot(smooth, mapped_y), dot(smooth, mapped_z)));
 }
 
 // The direction, at least a little to the side of the facet that it is meant for: on facets a ray

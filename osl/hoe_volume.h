@@ -9,8 +9,13 @@
 // Waves nearer to the plane of the layer than this cosine are taken as having it.
 #define HOE_LEAST_OBLIQUITY 1e-6
 
-// Phases beyond this have no digits left in float32; so far off Bragg they do not matter.
-#define HOE_MOST_PHASE 8192.0
+// Beyond this a phase loses 1,024 whole turns first, given in two parts, the first exact in 16 bits.
+#define HOE_LARGE_PHASE 8192.0
+#define HOE_TURNS 6433.875
+#define HOE_TURNS_REST 0.106754552
+
+// Phases beyond this have no digits left in float32.
+#define HOE_MOST_PHASE 1e7
 
 // Power that is left of an amplitude of exp(-depth); most layers do not absorb.
 float hoe_fallen(float depth)
@@ -48,14 +53,27 @@ void hoe_scaled_hyperbolic(float x, float y, output vector cosine, output vector
         c = 0.70710678;
         s = 0.70710678;
     } else if (y != 0.0) {
-        c = hoe_cos(y);
-        s = hoe_sin(y);
+        float turns = abs(y) > HOE_LARGE_PHASE ? round(y / HOE_TURNS) : 0.0;
+        float rest = (y - turns * HOE_TURNS) - turns * HOE_TURNS_REST;
+        c = hoe_cos(rest);
+        s = hoe_sin(rest);
     }
     cosine = vector(grown * c, left * s, 0.0);
     float squared = x * x + y * y;
     sine = vector(1.0, 0.0, 0.0);
     if (squared > 1e-12)
         sine = vector(left * c * x + grown * s * y, grown * s * x - left * c * y, 0.0) / squared;
+}
+
+// What x, the real part of the root of (half + i turn)^2 - (coupled + i crossed), has above |half|. Of
+// two large numbers that are nearly the same the difference follows from the equation itself.
+float hoe_root_above(float x, float y, float half, float turn, float coupled, float crossed)
+{
+    float size = abs(half);
+    if (size < 1.0 || x < 0.5 * size || x > 2.0 * size)
+        return x - size;
+    float along = half < 0.0 ? -turn : turn;
+    return -(coupled + 0.5 * crossed * (y + along) / x) / (x + size + along * (y + along) / x);
 }
 
 // Shares of the diffracted wave and, as `rest`, of order 0. `phase` is theta d, (real, imag) is
@@ -67,14 +85,15 @@ float hoe_two_waves(float cos_light, float cos_diffracted, float phase, float re
     float c_s = max(abs(cos_diffracted), HOE_LEAST_OBLIQUITY);
     if (cos_diffracted < 0.0)
         c_s = -c_s;
-    float mean = 0.5 * (loss / c_r + loss / c_s);
     float half = 0.5 * (loss / c_s - loss / c_r);
     float turn = -0.5 * phase / c_s;
     float both = 1.0 / (c_r * c_s);
+    float coupled = (real - imag) * (real + imag) * both;
+    float crossed = 2.0 * real * imag * both;
     float x;
     float y;
-    hoe_complex_root((half - turn) * (half + turn) - (real - imag) * (real + imag) * both,
-                     2.0 * half * turn - 2.0 * real * imag * both, x, y);
+    hoe_complex_root((half - turn) * (half + turn) - coupled, 2.0 * half * turn - crossed, x, y);
+    float above = hoe_root_above(x, y, half, turn, coupled, crossed);
     vector cosine;
     vector sine;
     hoe_scaled_hyperbolic(x, y, cosine, sine);
@@ -82,12 +101,12 @@ float hoe_two_waves(float cos_light, float cos_diffracted, float phase, float re
     vector mixed = vector(half * sine[0] - turn * sine[1], half * sine[1] + turn * sine[0], 0.0);
     float taken = (real * real + imag * imag) * abs(both) * dot(sine, sine);
     if (c_s > 0.0) {
-        float fallen = hoe_fallen(mean - x);
+        float fallen = hoe_fallen(loss / max(c_r, c_s) - above);
         rest = fallen * dot(cosine + mixed, cosine + mixed);
         return fallen * taken;
     }
     float divisor = dot(cosine - mixed, cosine - mixed);
-    rest = hoe_fallen(mean + x) / divisor;
+    rest = hoe_fallen(loss / c_r + above) / divisor;
     return taken / divisor;
 }
 
@@ -165,16 +184,19 @@ float hoe_volume_mode(vector ray, float normal_sign, vector gratings[], float re
     return count > 1 && total > 0.0 ? mine * (1.0 - left) / total : mine;
 }
 
-// Share of one way out, for unpolarised light with the tangential part (along, across) of n s.
+// Share of one way out, for unpolarised light with the tangential part (along, across) of n s and
+// the size `normal_part` of the one along the normal, from which that inside follows: the index
+// squared less the square of the tangential part would lose its digits toward grazing.
 // `gratings` are lambda Q in the frame of the grating, z to the front; (real, imag) is kappa d.
 // Order 0 is the transmitted one, and belongs to no exposure. `folds`: an order that cannot leave
 // on its own side is totally reflected and leaves on the other, if it can.
-float hoe_volume_share(float along, float across, int from_back, vector gratings[], float real[],
-                       float imag[], int count, float index, float phase_scale, float loss,
-                       float index_back, float index_front, int folds, int exposure, int order,
-                       int side)
+float hoe_volume_share(float along, float across, float normal_part, int from_back,
+                       vector gratings[], float real[], float imag[], int count, float index,
+                       float phase_scale, float loss, float index_back, float index_front,
+                       int folds, int exposure, int order, int side)
 {
-    float squared = index * index - along * along - across * across;
+    float outside = from_back ? index_back : index_front;
+    float squared = normal_part * normal_part + (index - outside) * (index + outside);
     if (squared <= 0.0)
         return 0.0;
     vector ray = vector(along, across, sqrt(squared));

@@ -22,6 +22,20 @@ vector hoe_point_wave(vector source, int converging, vector position)
     return converging ? -away : away;
 }
 
+// The same less `heading`, its direction at the frame's origin, where that is not zero: how far the
+// wave of a far source has turned. (h + q) / |h + q| - h with q = curvature * position, and
+// |h + q| - 1 from its square: nothing large is subtracted. `curvature` is 1 / distance, negative
+// while converging.
+vector hoe_point_turn(vector heading, float curvature, vector source, int converging, vector position)
+{
+    if (heading == vector(0.0))
+        return hoe_point_wave(source, converging, position);
+    vector bend = curvature * position;
+    float growth = dot(bend, bend + 2.0 * heading);
+    float distance = sqrt(1.0 + growth);
+    return (bend - heading * (growth / (1.0 + distance))) / distance;
+}
+
 // Tangent of the angle in a layer, over that in the layer of lowest index, u.
 float hoe_layer(float index, float lowest, float u)
 {
@@ -96,13 +110,12 @@ int hoe_window_wave(vector source, int converging, float source_index, vector wi
     return 1;
 }
 
-// Toric wave: away from an arc through `second` around the straight line through `first`.
-vector hoe_astigmatic_wave(vector first, vector second, vector line_direction, int converging,
-                           vector position)
+// Toric wave: away from an arc through `second`, of this radius, around the straight line through
+// `first`. The unit vectors `chief`, from `first` to `second`, and `line` at a right angle to it are
+// given, since far foci may be the same place in float32.
+vector hoe_astigmatic_wave(vector first, vector second, float radius, vector chief, vector line,
+                           int converging, vector position)
 {
-    float radius = length(second - first);
-    vector chief = normalize(second - first);
-    vector line = normalize(line_direction - chief * dot(line_direction, chief));
     vector across = cross(line, chief);
     vector from_first = position - first;
     vector from_second = position - second;

@@ -10,16 +10,20 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
+from msgspec.structs import replace
 
 from ..core.spectrum import Spectrum
-from ..core.wavelength_sampling import by_significance
 from ..model.device import DeviceSpec, LightGuideSpec
+from ..model.effects import Effect, EffectPlan, plan_effects, planned
 from ..model.field import field_degrees
+from ..model.scene import SceneSpec
+from ..model.wavelengths import display_weights
+from .diffracted import FLOOR, count_after_diffraction, is_worth_it
 from .eye import add_eye
 from .guide import add_guide
 from .light_engine import add_light_engine
 from .scene import add_scene
-from .spectral import SpectralScene, spectral_scene
+from .spectral import SpectralScene, rendered_spectrum
 from .stage import add_room, device_root, display_image, empty, new_collection, prepare_scene
 
 
@@ -28,7 +32,8 @@ class DeviceScene:
     """A scene that holds a device, and what one changes in it.
 
     Attributes:
-        spec: The document that it was built from.
+        spec: The document, as it was asked for.
+        plan: Which of its effects were built.
         scene: The scene.
         eye: The camera object, in the frame of the device.
         panel: The display of a light guide; None in a scene of another kind.
@@ -37,6 +42,7 @@ class DeviceScene:
     """
 
     spec: DeviceSpec
+    plan: EffectPlan
     scene: bpy.types.Scene
     eye: bpy.types.Object
     panel: bpy.types.Object | None
@@ -46,8 +52,7 @@ class DeviceScene:
     @property
     def camera(self) -> bpy.types.Camera:
         """The eye's lens and pupil."""
-        assert isinstance(self.eye.data, bpy.types.Camera)
-        return self.eye.data
+        return _camera(self.eye)
 
     @property
     def guide_spec(self) -> LightGuideSpec:
@@ -56,13 +61,16 @@ class DeviceScene:
         return self.spec
 
 
-def build_device(scene: bpy.types.Scene, spec: DeviceSpec, folder: Path) -> DeviceScene:
-    """Build a device in a scene.
+def build_device(
+    scene: bpy.types.Scene, spec: DeviceSpec, folder: Path, plan: EffectPlan | None = None
+) -> DeviceScene:
+    """Build a device in a scene, with the effects that it calls for.
 
     Args:
         scene: An empty scene.
         spec: The device.
         folder: Folder that image files are relative to.
+        plan: Which effects are built; by default what ``plan_effects`` finds.
 
     Returns:
         The scene and its parts.
@@ -71,22 +79,35 @@ def build_device(scene: bpy.types.Scene, spec: DeviceSpec, folder: Path) -> Devi
         MissingOslError: This Blender, or the scene's device, cannot run OSL.
         SpecError: A picture or the colours of a display cannot be had.
     """
-    prepare_scene(scene, spec.render)
+    plan = plan or plan_effects(spec)
+    made = planned(spec, plan)
+    late = is_worth_it(made)
+    if late:
+        floor = min(made.render.spectrum_floor, FLOOR)
+        made = replace(made, render=replace(made.render, spectrum_floor=floor))
+    prepare_scene(scene, made.render)
     device = new_collection(scene, "Device")
     root = device_root(device)
     panel = None
-    if isinstance(spec, LightGuideSpec):
-        primaries = spec.display.spectra()
-        sampling = by_significance(primaries, floor=spec.render.spectrum_floor)
-        spectral = spectral_scene(sampling, primaries, spec.render.preview_wavelength_nm)
-        add_guide(device, spec.guide, spec.holograms, spectral, parent=root)
-        panel = _add_engine(device, spec, primaries, folder, spectral, root)
-        eye = add_eye(device, spec.eye, spectral, parent=root)
+    if isinstance(made, LightGuideSpec):
+        primaries = made.display.spectra()
+        spectral = rendered_spectrum(made.render, primaries, display_weights(made.display))
+        add_guide(device, made.guide, made.holograms, spectral, parent=root)
+        panel = _add_engine(device, made, primaries, folder, spectral, root)
+        eye = add_eye(device, made.eye, spectral, parent=root)
     else:
-        eye, spectral = add_scene(device, spec, folder, root)
+        eye, spectral = add_scene(device, made, folder, root)
+    _camera(eye).dof.use_dof = plan.is_on(Effect.PUPIL)
     scene.camera = eye
-    room = add_room(scene, spec.room, spec.render.luminance_per_unit_cd_m2)
-    return DeviceScene(spec, scene, eye, panel, room, spectral)
+    room = add_room(scene, made.room, made.render.luminance_per_unit_cd_m2)
+    if late and isinstance(made, SceneSpec):
+        count_after_diffraction(scene, made, spectral)
+    return DeviceScene(spec, plan, scene, eye, panel, room, spectral)
+
+
+def _camera(eye: bpy.types.Object) -> bpy.types.Camera:
+    assert isinstance(eye.data, bpy.types.Camera)
+    return eye.data
 
 
 def _add_engine(

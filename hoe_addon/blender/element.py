@@ -31,7 +31,7 @@ def hologram_element(
 
     A curved one gets facets until directions are right to 1e-4 rad, as far as
     ``model.element.MAX_TRIANGLES`` allows; the error that is left is the custom property
-    `ERROR_PROPERTY`. The object may be moved, turned, mirrored, and scaled alike along all axes.
+    `ERROR_PROPERTY`. The object may be moved, turned, mirrored, scaled, and sheared by its parents.
 
     Args:
         collection: Where it is linked.

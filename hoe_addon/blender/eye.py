@@ -34,7 +34,7 @@ def add_eye(
         parent: Object whose frame the place is in.
 
     Returns:
-        The camera object; the filter is its child.
+        The camera object; the filter is its child, where paths draw wavelengths.
     """
     camera = bpy.data.cameras.new("Eye")
     set_pupil(camera, spec)
@@ -42,7 +42,8 @@ def add_eye(
     eye.location = spec.position_mm
     eye.parent = parent
     collection.objects.link(eye)
-    _add_filter(collection, eye, spec, spectral)
+    if spectral.drawn:
+        _add_filter(collection, eye, spec, spectral)
     return eye
 
 

@@ -21,6 +21,7 @@ from ..model.eyebox import PupilPosition, pupil_positions
 from ..model.field import field_degrees, field_tangents
 from ..shading.pictures import built_in
 from .device import DeviceScene
+from .division import divided
 from .materials import picture
 from .render import Progress, render_layers
 from .view import DISPLAY_LAYER, View, render_view
@@ -103,10 +104,12 @@ def survey(
     try:
         # Only the camera moves between the views: the scene need not be prepared again.
         render.use_persistent_data = True
+        division = divided(device, device.scene.cycles.samples)
         fields = fields_at(device, positions, field_samples)
         for number, position in enumerate(positions):
             device.eye.location = position.centre_mm
-            view = render_view(device, _share_of(progress, number, len(positions)))
+            told = _share_of(progress, number, len(positions))
+            view = render_view(device, told, division)
             yield PupilResult(position, view, fields[number])
     finally:
         device.eye.location, render.use_persistent_data = kept

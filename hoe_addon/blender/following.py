@@ -112,13 +112,22 @@ def in_frame_of(
     lengths = np.linalg.norm(here[:3, :3], axis=0)
     if not lengths.min() > 0.0:
         raise SpecError(f"object {carrier and carrier.name}: must not be scaled to nothing")
-    # As in the shader: directions by the unit axes, places and lengths by the scaled ones.
+    # As in the shader: directions by unit axes at right angles, places by the object's matrix.
     there = np.array(followed.target.matrix_world.to_quaternion().to_matrix())
-    rotation = (here[:3, :3] / lengths).T @ there
+    rotation = _unit_axes(here[:3, :3]).T @ there
     away = np.array(followed.target.matrix_world.translation) - here[:3, 3]
     origin = np.linalg.solve(here[:3, :3], away)
     scale = float(1.0 / np.cbrt(np.prod(lengths)))
     return moved(followed.wave, rotation, origin / units, scale)
+
+
+def _unit_axes(mapped: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Axes at right angles by columns: x as mapped, z normal to the mapped plane z = 0."""
+    hand = -1.0 if np.linalg.det(mapped) < 0.0 else 1.0
+    x = mapped[:, 0] / np.linalg.norm(mapped[:, 0])
+    z = hand * np.cross(mapped[:, 0], mapped[:, 1])
+    z /= np.linalg.norm(z)
+    return np.stack((x, hand * np.cross(z, x), z), axis=1)
 
 
 def _drive(

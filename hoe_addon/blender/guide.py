@@ -38,7 +38,9 @@ def add_guide(
         The plate. Material slots: bare surface, rim, then one for each patch.
     """
     materials = [
-        dielectric_material("Guide", spec.medium, spec.outside, spectral),
+        dielectric_material(
+            "Guide", spec.medium, spec.outside, spectral, flat_normal=(0.0, 0.0, 1.0)
+        ),
         absorber_material("Guide Rim"),
     ]
     materials += [
@@ -96,7 +98,8 @@ def _cuts(guide: GuideSpec, patches: Sequence[PatchSpec], axis: int) -> NDArray[
     spans += [(patch.center_mm, patch.size_mm) for patch in patches]
     edges = [centre[axis] + sign * size[axis] / 2.0 for centre, size in spans for sign in (-1, 1)]
     # Edges that are equal but for rounding are one cut.
-    return np.unique(np.round(edges, 9))
+    width = guide.size_mm[axis]
+    return np.unique(np.round(np.asarray(edges) / width, 10)) * width
 
 
 def _slots(

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Materials of optical elements."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import bpy
 import numpy as np
@@ -16,7 +16,7 @@ from ..model.medium import MediumRef
 from ..shading.hologram import Frame, hologram_shader, hologram_sockets
 from ..shading.medium import medium_sockets
 from ..shading.source import specialised
-from ..shading.wavelength import display_shader, filter_shader
+from ..shading.wavelength import display_shader, filter_shader, one_wavelength_display_shader
 from . import nodes
 from .following import Followed, drive, waves_of
 from .maps import prepare_map, update_map
@@ -71,7 +71,11 @@ def hologram_material(
 
 
 def dielectric_material(
-    name: str, inside: MediumRef, outside: MediumRef, spectral: SpectralScene
+    name: str,
+    inside: MediumRef,
+    outside: MediumRef,
+    spectral: SpectralScene,
+    flat_normal: Sequence[float] | None = None,
 ) -> bpy.types.Material:
     """The boundary of a dispersive body; the normals of its mesh point outward.
 
@@ -80,11 +84,15 @@ def dielectric_material(
         inside: Medium behind the normals.
         outside: Medium before them.
         spectral: The sampled spectrum of the scene.
+        flat_normal: Unit normal, in object space, of all faces that have it, where these are
+            planes: more exact than that of a mesh far from the world's origin.
 
     Returns:
         A new material.
     """
     values = medium_sockets("inside", inside) | medium_sockets("outside", outside)
+    if flat_normal is not None:
+        values["flat_normal"] = tuple(flat_normal)
     material = nodes.script_material(name, specialised("hoe_dielectric", {}), values)
     use_wavelength(material, spectral.group)
     return material
@@ -127,13 +135,18 @@ def display_material(
         SpecError: The white lies outside what the primaries can mix.
     """
     shares = white_balance(primaries, white)
-    preview = spectral.sampling.mean_rgb(spectral.tables.emission[:3]) * shares[:, None]
+    preview = spectral.preview_rgb(spectral.tables.emission[:3]) * shares[:, None]
     values: dict[str, nodes.SocketValue] = {
         f"preview_{name}": tuple(rgb)
         for name, rgb in zip(("red", "green", "blue"), preview.tolist(), strict=True)
     }
     values["white_luminance"] = luminance
-    source = display_shader(spectral.tables.emission[:3] * shares[:, None])
+    if spectral.drawn:
+        source = display_shader(
+            spectral.tables.emission[:3] * shares[:, None], len(spectral.samplings)
+        )
+    else:
+        source = one_wavelength_display_shader()
     material = nodes.script_material("Display", source, values)
     tree = nodes.tree_of(material)
     texture = tree.nodes.new("ShaderNodeTexImage")
@@ -148,7 +161,7 @@ def display_material(
 
 def filter_material(spectral: SpectralScene) -> bpy.types.Material:
     """The eye's response, for the surface in front of the camera."""
-    source = filter_shader(spectral.tables.filter_rgb)
+    source = filter_shader(spectral.tables.filter_rgb, len(spectral.samplings))
     return nodes.script_material("Spectral Filter", source, {})
 
 

@@ -103,8 +103,10 @@ def script_material(
     return material
 
 
-def new_tree(owner: bpy.types.Material | bpy.types.World) -> bpy.types.NodeTree:
-    """The node tree of a new material or world, emptied."""
+def new_tree(
+    owner: bpy.types.Material | bpy.types.World | bpy.types.Light,
+) -> bpy.types.NodeTree:
+    """The node tree of a new material, world or light, emptied."""
     if owner.node_tree is None:
         owner.use_nodes = True
     tree = owner.node_tree

@@ -4,6 +4,7 @@
 
 import contextlib
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
@@ -28,6 +29,29 @@ The parts depend on picture and samples only, never on time: same seed, same pic
 """
 
 
+_BORDER = ("border_min_x", "border_max_x", "border_min_y", "border_max_y")
+
+
+@dataclass(frozen=True)
+class Region:
+    """A rectangle of pixels, counted from the top left; the far ends are not part of it."""
+
+    left: int
+    top: int
+    right: int
+    bottom: int
+
+    @property
+    def pixels(self) -> int:
+        """Its number of pixels."""
+        return (self.right - self.left) * (self.bottom - self.top)
+
+    @property
+    def slices(self) -> tuple[slice, slice]:
+        """It as an index of a picture."""
+        return slice(self.top, self.bottom), slice(self.left, self.right)
+
+
 def render_layers(
     scene: bpy.types.Scene, layers: Sequence[str], progress: Progress | None = None
 ) -> dict[str, NDArray[np.float32]]:
@@ -48,23 +72,74 @@ def render_layers(
         RenderError: Blender gave no picture, or one that has NaN or infinity in it.
         CancelledError: The progress function asked to stop.
     """
-    total = scene.cycles.samples
-    pixels = scene.render.resolution_x * scene.render.resolution_y
-    step = max(1, min(total, _PATHS_PER_PART // pixels))
-    sums: dict[str, NDArray[np.float64]] = {}
+    cycles = scene.cycles
+    found = render_samples(scene, layers, cycles.seed, 0, cycles.samples, progress=progress)
+    return {layer: pixels.astype(np.float32) for layer, pixels in found.items()}
+
+
+def render_samples(
+    scene: bpy.types.Scene,
+    layers: Sequence[str],
+    seed: int,
+    first: int,
+    count: int,
+    *,
+    region: Region | None = None,
+    progress: Progress | None = None,
+) -> dict[str, NDArray[np.float64]]:
+    """Render some samples of the stratified sequence of a seed.
+
+    Args:
+        scene: The scene, ready to render; its first view layer is taken.
+        layers: Names of passes.
+        seed: Seed of all random numbers.
+        first: Number of the first sample.
+        count: Number of samples, at least 1.
+        region: Part of the picture to render; None is all.
+        progress: Told after every part.
+
+    Returns:
+        Mean of the samples, scene-linear, by pass, shape ``(height, width, 3)``, top row first;
+        0 outside the region.
+
+    Raises:
+        RenderError: Blender gave no picture, or one that has NaN or infinity in it.
+        CancelledError: The progress function asked to stop.
+    """
+    width, height = scene.render.resolution_x, scene.render.resolution_y
+    step = max(
+        1, min(count, _PATHS_PER_PART // (width * height if region is None else region.pixels))
+    )
+    sums = {layer: np.zeros((height, width, 3)) for layer in layers}
     with _kept_settings(scene), scratch_folder() as folder:
         path = folder / "layers.exr"
         write_float_exr(scene, path, layers=True)
-        if step < total:
+        scene.cycles.seed = seed
+        # Cycles takes no more than that, whatever the subset says.
+        scene.cycles.samples = max(scene.cycles.samples, first + count)
+        _set_region(scene, region)
+        if step < count or first > 0 or region is not None:
             # With persistent data Cycles keeps the first part's offset: all would be the same.
             scene.render.use_persistent_data = False
-        for first in range(0, total, step):
-            count = min(step, total - first)
-            for layer, part in _render_part(scene, path, layers, first, count).items():
-                sums[layer] = sums.get(layer, 0.0) + part.astype(np.float64) * (count / total)
+        for begin in range(0, count, step):
+            some = min(step, count - begin)
+            for layer, part in _render_part(scene, path, layers, first + begin, some).items():
+                sums[layer] += part.astype(np.float64) * (some / count)
             if progress is not None:
-                progress((first + count) / total)
-    return {layer: pixels.astype(np.float32) for layer, pixels in sums.items()}
+                progress((begin + some) / count)
+    return sums
+
+
+def _set_region(scene: bpy.types.Scene, region: Region | None) -> None:
+    """Let only a region be rendered; the picture keeps its size, with black around."""
+    render = scene.render
+    render.use_border = region is not None
+    if region is not None:
+        width, height = render.resolution_x, render.resolution_y
+        render.use_crop_to_border = False
+        render.border_min_x, render.border_max_x = region.left / width, region.right / width
+        render.border_min_y = 1.0 - region.bottom / height
+        render.border_max_y = 1.0 - region.top / height
 
 
 def _render_part(
@@ -95,7 +170,11 @@ def _kept_settings(scene: bpy.types.Scene) -> Iterator[None]:
             ("media_type", "file_format", "color_mode", "color_depth", "exr_codec"),
         ),
         (scene.render, ("filepath", "use_file_extension", "use_persistent_data")),
-        (scene.cycles, ("use_sample_subset", "sample_offset", "sample_subset_length")),
+        (scene.render, ("use_border", "use_crop_to_border", *_BORDER)),
+        (
+            scene.cycles,
+            ("seed", "samples", "use_sample_subset", "sample_offset", "sample_subset_length"),
+        ),
     )
     kept = [(owner, name, getattr(owner, name)) for owner, names in groups for name in names]
     try:

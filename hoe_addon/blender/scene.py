@@ -9,7 +9,6 @@ from pathlib import Path
 import bpy
 
 from ..core.spectrum import Spectrum
-from ..core.wavelength_sampling import by_significance
 from ..model.scene import SceneSpec
 from ..model.scene_lens import LensElement
 from ..model.scene_parts import (
@@ -21,12 +20,14 @@ from ..model.scene_parts import (
     HologramElement,
     LampElement,
 )
+from ..model.wavelengths import display_weights
 from . import scene_lights, scene_things
+from .diffracted import used_primaries
 from .element import hologram_element
 from .eye import add_eye
 from .materials import hologram_material
 from .scene_lens import add_lens
-from .spectral import SpectralScene, spectral_scene
+from .spectral import SpectralScene, rendered_spectrum
 
 
 def add_scene(
@@ -48,8 +49,9 @@ def add_scene(
     """
     spectra = [_spectra(element) for element in spec.elements]
     emitters = [light for some in spectra for light in some]
-    sampling = by_significance(emitters, floor=spec.render.spectrum_floor)
-    spectral = spectral_scene(sampling, emitters, spec.render.preview_wavelength_nm)
+    planned = spec.render.mode == "spectral" and "all" not in spec.render.effects
+    weights = [weight for element in spec.elements for weight in _weights(element, planned)]
+    spectral = rendered_spectrum(spec.render, emitters, weights)
     unit = spec.render.luminance_per_unit_cd_m2
     first = 0
     for place, (element, own) in enumerate(zip(spec.elements, spectra, strict=True)):
@@ -73,6 +75,18 @@ def _spectra(element: ElementSpec) -> tuple[Spectrum, ...]:
     if isinstance(element, LampElement):
         return (element.spectrum.spectrum(),)
     return ()
+
+
+def _weights(element: ElementSpec, planned: bool) -> tuple[float, ...]:
+    """How often the spectra of an element's light are drawn; one element counts like another.
+
+    A plan leaves out the primaries that the picture has nothing of.
+    """
+    if isinstance(element, DisplayElement):
+        used = used_primaries(element) if planned else (1.0, 1.0, 1.0)
+        shares = zip(display_weights(element.display), used, strict=True)
+        return tuple(weight * factor for weight, factor in shares)
+    return (1.0,) if isinstance(element, LampElement) else ()
 
 
 def _part(spectral: SpectralScene, first: int, count: int) -> SpectralScene:

@@ -8,11 +8,11 @@ import bpy
 import numpy as np
 
 from ..model.scene_parts import DisplayElement, LampElement
-from ..shading.wavelength import display_shader
+from ..shading.wavelength import display_shader, one_wavelength_display_shader
 from . import meshes, nodes
 from . import room_shapes as shapes
 from .materials import display_material
-from .spectral import SpectralScene, use_wavelength
+from .spectral import SpectralScene
 from .stage import display_image
 
 EMITTERS = "display"
@@ -102,15 +102,16 @@ def _lamp_material(element: LampElement, spectral: SpectralScene) -> bpy.types.M
     """A display with one primary, fully driven."""
     emission = spectral.tables.emission[:1]
     dark = np.zeros_like(emission)
-    source = display_shader(np.concatenate((emission, dark, dark)))
-    (preview,) = spectral.sampling.mean_rgb(emission).tolist()
+    if spectral.drawn:
+        source = display_shader(np.concatenate((emission, dark, dark)), len(spectral.samplings))
+    else:
+        source = one_wavelength_display_shader()
+    (preview,) = spectral.preview_rgb(emission).tolist()
     values: dict[str, nodes.SocketValue] = {
         "image": (1.0, 0.0, 0.0),
         "preview_red": tuple(preview),
     }
-    material = nodes.script_material(element.name, source, values)
-    use_wavelength(material, spectral.group)
-    return material
+    return nodes.script_material(element.name, source, values)
 
 
 def _lamp_mesh(element: LampElement) -> bpy.types.Mesh:

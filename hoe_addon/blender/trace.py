@@ -32,6 +32,7 @@ from ..shading.hologram import (
 )
 from ..shading.probe import (
     MISSED,
+    UNRECORDED,
     direction_world_shader,
     first_hit_only,
     position_shader,
@@ -71,7 +72,6 @@ def trace_cycles(
         What Cycles made of them, in float32 precision. The efficiency is that of the backward
         walk, which equals that of the ray as light by reciprocity. Points of extended sources
         are drawn by the shader's own numbers: even as in numpy, but not the same ray by ray.
-        An order that is not there because nothing is recorded counts as evanescent.
 
     Raises:
         MissingOslError: This Blender has no OSL.
@@ -153,11 +153,14 @@ def _read_back(
     probe: "_Probe", branch: Branch, chosen: NDArray[np.int64], result: TraceResult
 ) -> None:
     answer = probe.render(first_hit_only(unit_efficiency_shader(probe.spec, branch)))
-    missed = answer[:, 0] == MISSED
     length = np.linalg.norm(answer, axis=1)
-    gone = ~missed & (length == 0.0)
-    met = ~missed & ~gone
-    result.status[chosen] = np.select((missed, gone), (int(Status.MISS), int(Status.EVANESCENT)), 0)
+    missed, absent, gone = answer[:, 0] == MISSED, answer[:, 0] == UNRECORDED, length == 0.0
+    met = ~missed & ~absent & ~gone
+    result.status[chosen] = np.select(
+        (missed, absent, gone),
+        (int(Status.MISS), int(Status.UNDEFINED), int(Status.EVANESCENT)),
+        int(Status.OK),
+    )
     result.direction[chosen[met]] = answer[met] / length[met, None]
 
     weighted = probe.render(first_hit_only(one_order_shader(probe.spec, branch, probe.table)))

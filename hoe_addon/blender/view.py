@@ -4,7 +4,8 @@
 
 import json
 import time
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -17,14 +18,15 @@ from ..core.photometry import Photometry, measure
 from ..files import replacing, write_text
 from ..model.device import LightGuideSpec
 from ..model.document import to_document
+from ..model.effects import EffectPlan
 from ..model.field import field_mask
 from . import exr
 from .denoiser import denoise
 from .device import DeviceScene
+from .division import Division, divided
+from .passes import DISPLAY_LAYER
 from .quiet import captured_output
-from .render import COMBINED, Progress, render_layers
-
-DISPLAY_LAYER = "Combined_display"
+from .render import COMBINED, Progress
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,19 +37,27 @@ class View:
         picture: All light, shape ``(height, width, 3)``, top row first.
         display: The share that comes from the display, same shape.
         seconds: Time that the render took.
+        clean: The picture without noise, where it is there already, same shape.
+        samples: Samples per pixel by the name of the pass.
     """
 
     picture: NDArray[np.float32]
     display: NDArray[np.float32]
     seconds: float
+    clean: NDArray[np.float32] | None = None
+    samples: Mapping[str, int] = field(default_factory=dict)
 
 
-def render_view(device: DeviceScene, progress: Progress | None = None) -> View:
+def render_view(
+    device: DeviceScene, progress: Progress | None = None, division: Division | None = None
+) -> View:
     """Render what the eye sees.
 
     Args:
         device: The device in its scene.
         progress: Told after every part.
+        division: How the picture is divided into passes; by default what a pilot finds, or one
+            pass where the picture is small.
 
     Returns:
         The picture, and the display's share of it.
@@ -56,8 +66,12 @@ def render_view(device: DeviceScene, progress: Progress | None = None) -> View:
         RenderError: Blender gave no usable picture.
     """
     started = time.perf_counter()
-    layers = render_layers(device.scene, (COMBINED, DISPLAY_LAYER), progress)
-    return View(layers[COMBINED], layers[DISPLAY_LAYER], time.perf_counter() - started)
+    cycles = device.scene.cycles
+    division = division or divided(device, cycles.samples)
+    layers, counts = division.render(cycles.seed, cycles.samples, progress)
+    return View(
+        layers[COMBINED], layers[DISPLAY_LAYER], time.perf_counter() - started, samples=counts
+    )
 
 
 def view_metrics(device: DeviceScene, view: View) -> dict[str, Any]:
@@ -69,7 +83,9 @@ def view_metrics(device: DeviceScene, view: View) -> dict[str, Any]:
         "eye": to_document(device.spec.eye),
         "seconds": round(view.seconds, 3),
         "samples": device.scene.cycles.samples,
+        "passes": dict(view.samples),
         "picture": _as_dict(measure(view.picture, unit)),
+        "effects": _effects(device.plan),
         "blender": bpy.app.version_string,
         "hoe_addon": resources.version(),
     }
@@ -85,7 +101,14 @@ def view_metrics(device: DeviceScene, view: View) -> dict[str, Any]:
     return metrics
 
 
-def save_view(device: DeviceScene, view: View, folder: Path, *, clean: bool) -> dict[str, Any]:
+def save_view(
+    device: DeviceScene,
+    view: View,
+    folder: Path,
+    *,
+    clean: bool,
+    more: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
     """Write view.exr, view.png, view.blend and metrics.json; each is whole or not there.
 
     Args:
@@ -93,6 +116,7 @@ def save_view(device: DeviceScene, view: View, folder: Path, *, clean: bool) -> 
         view: Its view.
         folder: Folder that exists.
         clean: Whether view.png is denoised; view.exr and the numbers never are.
+        more: What else metrics.json holds.
 
     Returns:
         What metrics.json holds.
@@ -100,7 +124,7 @@ def save_view(device: DeviceScene, view: View, folder: Path, *, clean: bool) -> 
     Raises:
         HoeError: A file cannot be written.
     """
-    metrics = {**view_metrics(device, view), "png_denoised": clean}
+    metrics = {**view_metrics(device, view), "png_denoised": clean, **(more or {})}
     exr.write(folder / "view.exr", view.picture)
     shown = clean_picture(view) if clean else view.picture
     save_png(device.scene, shown, folder / "view.png")
@@ -111,6 +135,8 @@ def save_view(device: DeviceScene, view: View, folder: Path, *, clean: bool) -> 
 
 def clean_picture(view: View) -> NDArray[np.float32]:
     """The view without noise; display and room are denoised apart, for their noise differs."""
+    if view.clean is not None:
+        return view.clean
     return denoise(view.display) + denoise(view.picture - view.display)
 
 
@@ -156,6 +182,23 @@ def save_blend(path: Path) -> None:
             )
     finally:
         preferences.save_version = kept
+
+
+def _effects(plan: EffectPlan) -> dict[str, Any]:
+    """What was left out, and the error that it may cost in all."""
+    return {
+        "left_out": [
+            {
+                "effect": str(each.effect),
+                "hologram": each.hologram,
+                "why": each.why,
+                "predicted_relative_error": each.error_without,
+                "overridden": each.overridden,
+            }
+            for each in plan.left_out
+        ],
+        "promised_relative_error": plan.promise,
+    }
 
 
 def _as_dict(photometry: Photometry) -> dict[str, float | None]:

@@ -23,9 +23,11 @@ COMMANDS = (
     "trace",
     "efficiency",
     "check",
+    "explain",
     "bake",
     "map",
     "bench",
+    "accuracy",
     "demo",
 )
 """Modules of the commands, in the order of ``--help``."""
@@ -79,10 +81,15 @@ def _without_command(args: object) -> int:
 
 
 def _join_negative(argv: Sequence[str]) -> list[str]:
-    """Write ``--orders -3:3`` as ``--orders=-3:3``: argparse takes the value for an option."""
+    """Write ``--orders -3:3`` as ``--orders=-3:3``: argparse takes the value for an option.
+
+    Changes of effects, such as ``--effects -haze``, begin with a minus too.
+    """
     joined: list[str] = []
     for argument in argv:
-        if _NEGATIVE.fullmatch(argument) and joined and _OPTION.fullmatch(joined[-1]):
+        changes = bool(joined) and joined[-1] == "--effects"
+        negative = _NEGATIVE.fullmatch(argument) and joined and _OPTION.fullmatch(joined[-1])
+        if negative or changes:
             joined[-1] += f"={argument}"
         else:
             joined.append(argument)

@@ -16,10 +16,11 @@ from .parser import parse_number
 
 if TYPE_CHECKING:
     from ..blender.bench import Benchmark
+    from ..blender.bench_effects import EffectSpeed
     from ..blender.bench_tables import LookupSpeed
 
 _DESCRIPTION = """\
-Three measurements, of which --only picks some.
+Four measurements, of which --only picks some; effects is left out unless it is picked.
 surfaces: two parallel faces in one and the same view with Cycles' Glass (without roughness, under
 OSL), with our dielectric, and with a hologram of 1, 3 and 9 orders, each in turn and several times
 over. Prints samples per second by the clock (wall) and by processor time of all threads (cpu), and
@@ -30,8 +31,12 @@ rigorous: tables of 31 wavelengths x 64 angles x s and p by rigorous coupled wav
 a plain loop over single calls.
 lookups: one hologram by formula, by an interpolated table, and by drawing from the table: time of a
 sample, its deviation, the time to the same error, and whether the mean pictures are alike.
+effects: every preset with everything simulated, and with what its plan of effects leaves: time and
+variance of a sample, how much sooner a given error is reached, whether the mean pictures are alike,
+and what is left out. Takes some minutes.
 """
-_PARTS = ("surfaces", "rigorous", "lookups")
+_PARTS = ("surfaces", "rigorous", "lookups", "effects")
+_USUAL = _PARTS[:3]
 _SECONDS = (1.0, 3600.0)
 _PIXELS = (4, 4096)
 
@@ -64,8 +69,8 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
         "--only",
         metavar="LIST",
         type=_parts,
-        default=_PARTS,
-        help=f"what to measure, some of {','.join(_PARTS)} (default: all)",
+        default=_USUAL,
+        help=f"what to measure, some of {','.join(_PARTS)} (default: {','.join(_USUAL)})",
     )
     add("--size", metavar="WxH", type=_size, default=(256, 256), help="pixels (default: 256x256)")
     parser.set_defaults(run=run)
@@ -92,7 +97,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _measured(args: argparse.Namespace) -> "_Results":
-    surfaces = rigorous = lookups = None
+    surfaces = rigorous = lookups = effects = None
     if "surfaces" in args.only:
         from ..blender.bench import run_benchmark
 
@@ -106,7 +111,12 @@ def _measured(args: argparse.Namespace) -> "_Results":
 
         with _bar("lookups") as show:
             lookups = compare_lookups(progress=show)
-    return _Results(surfaces, rigorous, lookups)
+    if "effects" in args.only:
+        from ..blender.bench_effects import measure_effects
+
+        with _bar("effects") as show:
+            effects = measure_effects(progress=show)
+    return _Results(surfaces, rigorous, lookups, effects)
 
 
 @contextmanager
@@ -128,6 +138,7 @@ class _Results:
     surfaces: "Benchmark | None"
     rigorous: list[RcwaSpeed] | None
     lookups: "tuple[LookupSpeed, ...] | None"
+    effects: "tuple[EffectSpeed, ...] | None"
 
 
 def _json(result: _Results) -> str:
@@ -136,6 +147,8 @@ def _json(result: _Results) -> str:
         document["rigorous"] = [asdict(speed) | {"ratio": speed.ratio} for speed in result.rigorous]
     if result.lookups:
         document["lookups"] = [asdict(speed) for speed in result.lookups]
+    if result.effects:
+        document["effects"] = [asdict(speed) for speed in result.effects]
     return json.dumps(document, indent=2) + "\n"
 
 
@@ -147,6 +160,8 @@ def _table(result: _Results) -> str:
         blocks.append(rcwa_lines(result.rigorous))
     if result.lookups:
         blocks.append(_lookup_lines(result.lookups))
+    if result.effects:
+        blocks.append(_effect_lines(result.effects))
     return "\n\n".join("\n".join(lines) for lines in blocks) + "\n"
 
 
@@ -168,6 +183,17 @@ def _lookup_lines(speeds: "Sequence[LookupSpeed]") -> list[str]:
         f"  {speed.time_to_error:13.2f}  {speed.difference:16.2f}"
         for speed in speeds
     ]
+    return lines
+
+
+def _effect_lines(speeds: "Sequence[EffectSpeed]") -> list[str]:
+    heads = ("us/sample", "planned", "variance", "planned", "speed-up", "sigmas", "squares")
+    lines = [f"{'effects':20}  {'  '.join(f'{head:>9}' for head in heads)}  left out"]
+    for speed in speeds:
+        (whole, part), (noise, rest) = speed.microseconds, speed.variance
+        numbers = (whole, part, noise, rest, speed.speed_up, speed.sigmas, speed.blocks)
+        shown = "  ".join(f"{number:9.3g}" for number in numbers)
+        lines.append(f"{speed.device:20}  {shown}  {', '.join(speed.left_out) or 'nothing'}")
     return lines
 
 

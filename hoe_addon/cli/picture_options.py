@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..core.errors import HoeError
+from ..model.methods import METHODS
 
 if TYPE_CHECKING:
     from ..blender.device import DeviceScene
@@ -41,11 +42,63 @@ def add_picture_options(parser: argparse.ArgumentParser) -> None:
         "may be given more than once",
     )
     add(
+        "--method",
+        choices=tuple(METHODS),
+        help="published: uniform wavelengths, orders by significance, all effects; guided: what a "
+        "render does by itself, in less time",
+    )
+    add_effects_option(parser)
+    add(
         "--no-denoise",
         action="store_false",
         dest="denoise",
         help="leave the noise in PNG files; EXR files and numbers are never denoised",
     )
+
+
+def add_effects_option(parser: argparse.ArgumentParser) -> None:
+    """Add what changes the effect plan.
+
+    Args:
+        parser: Parser of one command.
+    """
+    parser.add_argument(
+        "--effects",
+        metavar="CHANGES",
+        type=effects,
+        help="change the effect plan: +haze,-levels turns effects on and off, NAME:-levels for one "
+        "hologram, all simulates everything",
+    )
+
+
+def effects(text: str) -> list[str]:
+    """Read changes of the effect plan.
+
+    Args:
+        text: Changes with a comma between.
+
+    Returns:
+        The changes.
+
+    Raises:
+        ArgumentTypeError: One is empty.
+    """
+    found = [part.strip() for part in text.split(",")]
+    if not all(found):
+        raise argparse.ArgumentTypeError(f"must be changes with a comma between, got {text!r}")
+    return found
+
+
+def effects_assignment(args: argparse.Namespace) -> list[str]:
+    """The change that ``--effects`` asks for, in the form of ``--set``.
+
+    Args:
+        args: Arguments with the option of ``add_effects_option``.
+
+    Returns:
+        One text ``path=value``, or none.
+    """
+    return [] if args.effects is None else [f"render.effects={json.dumps(args.effects)}"]
 
 
 def size(text: str) -> tuple[int, int]:
@@ -82,8 +135,9 @@ def assignments(args: argparse.Namespace) -> list[str]:
     """
     options = {"size": args.size, "samples": args.samples, "seed": args.seed, "mode": args.mode}
     given = {name: value for name, value in options.items() if value is not None}
+    given = {**METHODS.get(args.method, {}), **given}
     own = [f"render.{name}={json.dumps(value)}" for name, value in given.items()]
-    return [*args.assignments, *own]
+    return [*args.assignments, *own, *effects_assignment(args)]
 
 
 def device_of(args: argparse.Namespace, more: Sequence[str] = ()) -> "DeviceSpec":

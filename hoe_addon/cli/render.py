@@ -3,16 +3,41 @@
 """``render``: what an eye sees through a device."""
 
 import argparse
-from typing import Any
+import json
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+from ..model.methods import QUALITY_ERRORS
+from .interrupt import EXIT_INTERRUPTED, first_interrupt_asks
 from .picture_options import VIEW_FILES, add_picture_options, device_of, open_device
 from .progress import progress_bar
+
+if TYPE_CHECKING:
+    from ..blender.converge import Reached
+    from ..blender.device import DeviceScene
+    from ..model.quality import QualitySpec
 
 _DESCRIPTION = """\
 Render what the eye sees through a device. Writes view.exr (32-bit float, scene-linear Rec. 709),
 view.png (as shown on a screen), view.blend (opens and renders in Blender without this add-on) and
 metrics.json (settings, seconds, luminance in cd/m2, mean u'v').
-"""
+
+--error, --seconds and --quality ask for a result instead of a number of samples. The error is the
+root mean square error of the luminance of a pixel of view.exr, relative to the mean luminance, over
+the display's field of a light guide or over the lit picture of a scene. It is told by two
+independent halves of the samples; the render ends when its upper bound (95 % confidence) meets the
+request, when the time is over, or after an hour where no time is given. Ctrl-C ends it early and
+keeps the picture so far. The denoised view.png has an error of its own, which is told too."""
+
+_ENDS = {
+    "reached": "reached",
+    "time": "the time is over",
+    "samples": "the most samples are taken",
+    "stopped": "stopped by the user",
+    "black": "the picture is black",
+}
 
 
 def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
@@ -25,6 +50,11 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
         "render", help="what an eye sees through a device", description=_DESCRIPTION
     )
     add_picture_options(parser)
+    add = parser.add_argument
+    add("--error", metavar="X", type=float, help="render until the error is at most this")
+    add("--seconds", metavar="S", type=float, help="render for so long, set-up counted")
+    names = ", ".join(f"{name} {error:g}" for name, error in QUALITY_ERRORS.items())
+    add("--quality", metavar="NAME", help=f"render until the error has a name's value: {names}")
     parser.set_defaults(run=run)
 
 
@@ -38,20 +68,89 @@ def run(args: argparse.Namespace) -> int:
         Exit code.
     """
     from ..files import writable_folder
+    from ..model.quality import requested
 
-    spec = device_of(args)
+    started = time.perf_counter()
+    spec = device_of(args, _quality(args))
     folder = writable_folder(args.out, VIEW_FILES)
     device = open_device(args, spec)
+    request = requested(spec.render.quality)
+    if request is not None:
+        return _until(args, device, folder, request, started)
 
     from ..blender.view import render_view, save_view
 
     with progress_bar("render") as progress:
         view = render_view(device, progress)
-    metrics = save_view(device, view, folder, clean=args.denoise)
+    _tell(save_view(device, view, folder, clean=args.denoise), folder)
+    return 0
+
+
+def _quality(args: argparse.Namespace) -> list[str]:
+    """What the options ask for, in the form of ``--set``."""
+    from ..core.errors import SpecError
+
+    names = ("samples", "quality", "error", "seconds")
+    given = {name: getattr(args, name) for name in names if getattr(args, name) is not None}
+    if len(given) > 1 and set(given) != {"error", "seconds"}:
+        first, second, *_ = given
+        raise SpecError(f"--{first}: cannot be given together with --{second}")
+    if not given:
+        return []
+    # A number of samples from the command line wins over a request in the document.
+    value = None if "samples" in given else given.get("quality", given)
+    return [f"render.quality={json.dumps(value)}"]
+
+
+def _until(
+    args: argparse.Namespace,
+    device: "DeviceScene",
+    folder: Path,
+    request: "QualitySpec",
+    started: float,
+) -> int:
+    """Render until a request is met, write the results, and say what was reached."""
+    from ..blender.converge import converge
+    from ..blender.view import save_view
+
+    with first_interrupt_asks() as asked, progress_bar("render") as progress:
+        view, reached = converge(
+            device,
+            request,
+            progress,
+            clean=args.denoise,
+            started=started,
+            stopped=asked.is_set,
+        )
+    more = {"reached": reached.report()}
+    _tell(save_view(device, view, folder, clean=reached.denoising_helps, more=more), folder)
+    _tell_reached(reached)
+    if reached.end == "stopped":
+        print("hoe: stopped by the user; the picture so far is written", file=sys.stderr)
+        return EXIT_INTERRUPTED
+    return 0
+
+
+def _tell(metrics: dict[str, Any], folder: Path) -> None:
     print(f"{folder}: view.exr, view.png, view.blend, metrics.json")
     print(f"picture: mean {metrics['picture']['mean_cd_m2']:.1f} cd/m2; {_emitted(metrics)}")
     print(f"{metrics['samples']} samples per pixel in {metrics['seconds']:.1f} s")
-    return 0
+
+
+def _tell_reached(reached: "Reached") -> None:
+    """Say which errors were reached, with which confidence, and why it ended there."""
+    wanted, found = reached.request.error, reached.picture
+    sure = f"with {found.confidence:.0%} confidence"
+    line = f"view.exr: error {found.error:.3g}, at most {found.upper:.3g} {sure}"
+    if wanted is not None and reached.end != "reached":
+        line += f"; {wanted:g} was not reached: {_ENDS[reached.end]}"
+    print(line)
+    if reached.png is not None:
+        png = reached.png
+        # Chance can make the estimate of a small square negative.
+        estimate = f"error {png.error:.3g}" if png.error > 0.0 else "error too small to tell"
+        kept = "" if reached.denoising_helps else "; view.png is not denoised"
+        print(f"denoised: {estimate}, at most {png.upper:.3g} {sure}{kept}")
 
 
 def _emitted(metrics: dict[str, Any]) -> str:

@@ -15,9 +15,9 @@ Send rays through one hologram, in its own frame: the origin lies on the surface
 normal there. RAYS.csv has the columns x_mm, y_mm, z_mm, l, m, n, wavelength_nm, order, side (T or
 R); a ray with n > 0 comes from the back. Directions may have any length but zero. OUT.csv adds
 hit_x_mm, hit_y_mm, out_l, out_m, out_n, status (ok, evanescent, miss, undefined) and efficiency;
-undefined is an order where nothing is recorded, which the cycles engine cannot tell from
-evanescent; what does not exist is nan. Any order may be asked for: the efficiency is the value of
-the model, the document's "orders" only limit what a picture traces.
+undefined is an order where nothing is recorded; what does not exist is nan. Any order may be asked
+for: the efficiency is the value of the model, the document's "orders" only limit what a picture
+traces.
 """
 
 

@@ -23,6 +23,10 @@ _HALF_SPAN_WIDTHS = 3
 # Root of (g + 2 g^5) / 3 = 1/2, the Gaussian's height where Ohno's LED is at half its peak.
 _OHNO_HALF_HEIGHT = 0.8086092632090855
 _ILLUMINANT_SPAN_NM = (300, 830)
+# The nodes of a narrower line would fall on one another in double precision.
+_NARROWEST = 1e-12
+# Integrals and their squares stay within double precision.
+_LEAST_PEAK, _MOST_PEAK = 1e-100, 1e100
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +35,8 @@ class Spectrum:
 
     Attributes:
         wavelength: Nodes in m, above 0 and increasing, shape ``(n,)`` with n at least 2.
-        power: Power per wavelength at the nodes, at least 0, any unit, shape ``(n,)``.
+        power: Power per wavelength at the nodes, at least 0, any unit, shape ``(n,)``; all 0, or
+            from 1e-100 to 1e100 where it is most.
         name: Name for messages.
 
     Raises:
@@ -55,6 +60,10 @@ class Spectrum:
             raise SpecError(f"{self.name}.wavelength: must be above 0, finite and increasing")
         if not (np.all(np.isfinite(power)) and np.all(power >= 0.0)):
             raise SpecError(f"{self.name}.power: must be finite and at least 0")
+        peak = float(np.max(power))
+        if peak != 0.0 and not _LEAST_PEAK <= peak <= _MOST_PEAK:
+            span = f"{_LEAST_PEAK:g} to {_MOST_PEAK:g}"
+            raise SpecError(f"{self.name}.power: the largest must be 0 or {span}, got {peak:g}")
         for field, value in (("wavelength", nodes), ("power", power)):
             value.flags.writeable = False
             object.__setattr__(self, field, value)
@@ -82,6 +91,10 @@ def _bell(
         raise SpecError(
             f"{name}.centre: must be more than {_HALF_SPAN_WIDTHS} widths above 0, got {centre!r} m"
         )
+    if fwhm < _NARROWEST * centre:
+        raise SpecError(
+            f"{name}.fwhm: must be at least {_NARROWEST:g} of the centre, got {fwhm!r} m"
+        )
     half_count = _HALF_SPAN_WIDTHS * _NODES_PER_WIDTH
     offset = np.arange(-half_count, half_count + 1) / _NODES_PER_WIDTH
     return Spectrum(centre + fwhm * offset, shape(offset), name)
@@ -99,7 +112,8 @@ def line(centre: float, fwhm: float, name: str = "line") -> Spectrum:
         The spectrum, 1 at its peak.
 
     Raises:
-        SpecError: The width is not above 0, or the line would reach wavelength 0.
+        SpecError: The width is not above 0 or below 1e-12 of the centre, or the line would reach
+            wavelength 0.
     """
 
     def gaussian(offset: FloatArray) -> FloatArray:
@@ -120,7 +134,8 @@ def led(centre: float, fwhm: float, name: str = "led") -> Spectrum:
         The spectrum, 1 at its peak.
 
     Raises:
-        SpecError: The width is not above 0, or the band would reach wavelength 0.
+        SpecError: The width is not above 0 or below 1e-12 of the centre, or the band would reach
+            wavelength 0.
 
     References:
         Y. Ohno, Opt. Eng. 44, 111302 (2005), doi:10.1117/1.2130694: S = (g + 2 g^5) / 3 with
@@ -139,7 +154,8 @@ def tabulated(wavelength: ArrayLike, power: ArrayLike, name: str = "table") -> S
 
     Args:
         wavelength: Nodes in m, increasing, shape ``(n,)``.
-        power: Power per wavelength at the nodes, at least 0, any unit, shape ``(n,)``.
+        power: Power per wavelength at the nodes, at least 0, any unit, shape ``(n,)``; all 0, or
+            from 1e-100 to 1e100 where it is most.
         name: Name for messages.
 
     Returns:

@@ -14,9 +14,8 @@ W and E are not samples at the nodes but means over the two cells beside each no
 hat functions, weighted with wavelength). So no light is lost however narrow a line is or however
 fast the density changes.
 
-Colour errors, in u'v', with 512 cells and the display's primaries among the spectra: primaries
-below 1e-4, 1 nm lasers included; standard illuminants below 1e-4; 1 nm lines that the sampling was
-not told of, from 460 to 630 nm, below 5e-4. Of each, 2e-5 is the rounding of Rec. 709's white.
+Colour errors, in u'v', with 512 cells: primaries that the sampling knows, 1 nm lasers included, and
+standard illuminants below 1e-4; other 1 nm lines, from 460 to 630 nm, below 5e-4.
 """
 
 from collections.abc import Sequence
@@ -36,15 +35,14 @@ from .units import m_to_nm
 VISIBLE_SPAN = (360e-9, 830e-9)
 """Whole range of the CIE 1931 observer, in m: nothing visible is left out."""
 
-# A sampling that misses more of the visible range cannot give the white its colour.
-_MUST_COVER = (400e-9, 700e-9)
-# Step of the grid on which the target density is known, beside the nodes of the spectra.
-_FINE_STEP = 0.1e-9
-# No cell is wider than this many mean cells: light at the ends of the range is drawn rarely, but
-# never so rarely that one sample of it stands out.
+_MUST_COVER = (400e-9, 700e-9)  # less cannot give the white its colour
+_FINE_STEP = 0.1e-9  # of the grid on which the density is known, beside the nodes of the spectra
+# No cell is wider than this many mean cells, so that no rare sample stands out.
 _WIDEST_CELL = 8.0
-# Largest change of cell width per length. Beside a laser line the cells would widen a
-# hundredfold at once, and the straight lines between the nodes would not follow.
+# Most often that a wavelength is drawn, over daylight: the filter weighs the inverse, and Cycles
+# drops what weighs less than 1e-5. A line of 1e-3 nm alone would come near.
+_MOST_GAIN = 1e4
+# Largest change of cell width per length: the straight lines between nodes must follow.
 _WIDTH_GROWTH = 0.25
 
 
@@ -53,7 +51,7 @@ class SpectralTables:
     """What a shader needs to know about the spectra of a scene.
 
     Attributes:
-        wavelength_nm: Wavelength at the nodes in nm, increasing, shape ``(K + 1,)``.
+        wavelength_nm: Wavelength at the nodes in nm, shape ``(K + 1,)``.
         filter_rgb: Filter W at the nodes, linear RGB, shape ``(K + 1, 3)``; may be negative.
         emission: Emission E at the nodes for unit luminance, at least 0, shape ``(P, K + 1)``.
     """
@@ -214,19 +212,20 @@ def by_significance(
     floor: float = 0.5,
     cells: int = 512,
     span: tuple[float, float] = VISIBLE_SPAN,
+    weights: Sequence[float] | None = None,
 ) -> WavelengthSampling:
     """Draw wavelengths by what they contribute to the picture.
 
-    The density is ``floor`` times the significance of daylight, for all that ordinary RGB lights
-    light, and 1 - ``floor`` times the mean significance of the given spectra. Significance is
-    power times the eye's response |r| + |g| + |b|. Steps of the density are rounded off, and it
-    keeps a minimum all over the range, so every wavelength stays unbiased.
+    The density is ``floor`` times the significance of daylight, for what ordinary RGB lights light,
+    and 1 - ``floor`` times the mean of that of the given spectra. Significance is power times the
+    eye's response |r| + |g| + |b|. A minimum all over the range keeps all wavelengths unbiased.
 
     Args:
         spectra: Spectra in the scene; put every narrow one in, so that it is resolved.
         floor: Share of daylight, above 0 and at most 1.
         cells: Number of cells, at least 1.
         span: Shortest and longest wavelength in m, as in ``uniform``.
+        weights: What each spectrum counts in the mean, at least 0 and not all 0; equal if None.
 
     Returns:
         The sampling.
@@ -244,10 +243,11 @@ def by_significance(
         own = spectrum.wavelength
         grid = as_float(np.union1d(grid, own[(own > low) & (own < high)]))
     eye = np.sum(np.abs(linear_rgb_bar(grid)), axis=-1)
-    density = _significance(illuminant("D65"), grid, eye)
+    density = daylight = _significance(illuminant("D65"), grid, eye)
     if spectra:
         shares = [_significance(spectrum, grid, eye) for spectrum in spectra]
-        density = floor * density + (1.0 - floor) * np.mean(shares, axis=0)
+        density = floor * density + (1.0 - floor) * np.average(shares, axis=0, weights=weights)
+        density = np.minimum(density, _MOST_GAIN * daylight)
     return WavelengthSampling(_nodes_of(grid, _graded_width(grid, density, cells), cells))
 
 

@@ -11,6 +11,7 @@ from ..core.errors import SpecError
 from ..core.units import nm_to_m
 from . import field_kinds, fields
 from .field_error import FieldError
+from .quality import QualitySpec, requested
 
 BUILT_IN_IMAGES = ("chart", "white", "dots", "bars", "reticle", "speed")
 """Pictures that need no file: a test chart, a plain white field, a grid of dots, black and white
@@ -209,10 +210,18 @@ class RenderSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     Attributes:
         size: Width and height in pixels.
         samples: Samples per pixel.
+        quality: What ``render`` has to reach instead of a number of samples: an error, a time, or
+            ``draft``, ``preview``, ``final`` or ``reference``.
         seed: Seed of all random numbers.
         mode: ``spectral``, or ``preview`` at one wavelength.
         preview_wavelength_nm: Vacuum wavelength of the preview.
         spectrum_floor: Share of the wavelength samples kept for light other than the display's.
+        wavelengths: How they are drawn: by the ``spectrum`` of the light and the eye's response,
+            ``uniform``, or only at a few fixed ``lines``, which is an approximation.
+        order_selection: By ``significance``, that is by efficiency, or ``guided`` toward the paths
+            that matter to the picture; both are unbiased.
+        effects: Changes of the effect plan: ``+haze`` and ``-levels`` turn one on and off, ``all``
+            turns everything on.
         luminance_per_unit_cd_m2: Luminance that the scene-linear value 1.0 stands for.
         exposure_ev: Exposure of the shown picture, in stops; the EXR is left alone.
         max_bounces: Most surfaces that a path may pass.
@@ -220,10 +229,14 @@ class RenderSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
     size: tuple[int, int] = (640, 480)
     samples: int = 128
+    quality: str | QualitySpec | None = None
     seed: int = 0
     mode: Literal["spectral", "preview"] = "spectral"
     preview_wavelength_nm: float = 532.0
     spectrum_floor: float = 0.5
+    wavelengths: Literal["spectrum", "uniform", "lines"] = "spectrum"
+    order_selection: Literal["guided", "significance"] = "guided"
+    effects: tuple[str, ...] = ()
     luminance_per_unit_cd_m2: float = 100.0
     exposure_ev: float = 0.0
     max_bounces: int = 128
@@ -232,10 +245,15 @@ class RenderSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         """Check every setting."""
         fields.integers(self, "size", _MIN_PIXELS, _MAX_PIXELS, size=2)
         fields.integer(self, "samples", 1, _MAX_SAMPLES)
+        if not isinstance(self.quality, str | None):
+            field_kinds.instance(self, "quality", QualitySpec)
+        requested(self.quality)
         fields.integer(self, "seed", 0, _MAX_SEED)
         field_kinds.choice(self, "mode", ("spectral", "preview"))
         fields.wavelength(self, "preview_wavelength_nm")
         fields.number(self, "spectrum_floor", above=0.0, at_most=1.0)
+        field_kinds.choice(self, "wavelengths", ("spectrum", "uniform", "lines"))
+        field_kinds.choice(self, "order_selection", ("guided", "significance"))
         fields.number(self, "luminance_per_unit_cd_m2", above=0.0)
         fields.number(self, "exposure_ev", at_least=-_MAX_EXPOSURE_EV, at_most=_MAX_EXPOSURE_EV)
         fields.integer(self, "max_bounces", 1, _MAX_BOUNCES)

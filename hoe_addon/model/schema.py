@@ -16,6 +16,7 @@ from ..core.media import CATALOGUE
 from . import fields
 from .device import LightGuideSpec
 from .hologram import HologramSpec
+from .quality import QUALITIES
 from .scene import SceneSpec
 from .surface import MOST_COEFFICIENTS
 
@@ -121,6 +122,10 @@ def _add_rules(field: str, rule: dict[str, Any]) -> None:
                 option["minimum"] = 1
             elif option.get("type") == "string":
                 option["enum"] = list(CATALOGUE)
+    elif field == "quality":
+        for option in rule["anyOf"]:
+            if option.get("type") == "string":
+                option["enum"] = list(QUALITIES)
     elif field in ("wavelength_nm", "design_wavelength_nm", "preview_wavelength_nm", "centre_nm"):
         rule |= _WAVELENGTH
     elif field in ("index", "source_index") and rule.get("type") == "number":

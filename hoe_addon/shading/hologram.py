@@ -93,6 +93,8 @@ def unit_efficiency_shader(spec: HologramSpec, branch: Branch) -> ShaderSource:
         "HOE_PREPARE_EFFICIENCY": "",
         "HOE_EACH_ORDER(X)": _each_order((branch,), {branch: "1.0"}),
     }
+    if branch != TRANSMITTED_ZERO:
+        definitions["HOE_TELL_UNRECORDED"] = "1"
     return _assembled(spec, definitions, _unrecorded(spec, branch))
 
 

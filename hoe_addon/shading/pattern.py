@@ -10,14 +10,18 @@ from collections.abc import Mapping
 
 from ..model.pattern import PatternSpec
 from ..model.recording import RecordingSpec
-from ..model.waves import WaveSpec
+from ..model.waves import PlaneWaveSpec, PointSourceSpec, WaveSpec
 from .characteristic import characteristic_part
 from .following import following
 from .part import ShaderPart, joined
+from .wave_pair import pair_part
 from .waves import wave_part
 
 type Followed = Mapping[str, WaveSpec]
 """Waves that follow an object, by role (``object``, ``reference``), in the object's frame."""
+
+_PLAIN = (PlaneWaveSpec, PointSourceSpec)
+"""Two of these make a pair that keeps its digits when their sources are far."""
 
 
 def pattern_part(
@@ -32,13 +36,17 @@ def pattern_part(
         pattern: The recording or the characteristic function.
         units_per_mm: Scene units in one mm.
         followed: Waves of the recording that follow an object.
-        reach_mm: How far the element reaches from its centre, for the numbers of polynomials.
+        reach_mm: How far the element reaches from its centre, for the numbers of polynomials and
+            of pairs of waves.
 
     Returns:
         Its part; its sockets hold the wavelength that V is stated for, too.
     """
     stated = ShaderPart(sockets={"recording_wavelength_nm": pattern.wavelength_nm})
     if isinstance(pattern, RecordingSpec):
+        first, second = pattern.object, pattern.reference
+        if not followed and isinstance(first, _PLAIN) and isinstance(second, _PLAIN):
+            return joined((stated, pair_part(first, second, units_per_mm, reach_mm)))
         both = (
             _wave("object", "+", pattern.object, units_per_mm, followed or {}),
             _wave("reference", "-", pattern.reference, units_per_mm, followed or {}),

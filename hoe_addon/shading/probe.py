@@ -11,6 +11,9 @@ from .source import ShaderSource, array, specialised
 MISSED = 4.0
 """What hoe_probe_direction answers for a ray that met nothing; no direction has it."""
 
+UNRECORDED = 8.0
+"""What a hologram answers where nothing is recorded, for an order that is then not there."""
+
 
 def ray_camera_shader(origin: NDArray[np.float64], direction: NDArray[np.float64]) -> ShaderSource:
     """A camera whose pixel rows, from the bottom, are these rays.

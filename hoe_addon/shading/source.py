@@ -52,6 +52,20 @@ def specialised(name: str, definitions: Mapping[str, str], functions: str = "") 
     return ShaderSource(name, f"// Made from {name}.osl by hoe_addon.\n{head}{body}")
 
 
+def defining(source: ShaderSource, macro: str, value: str = "1") -> ShaderSource:
+    """The same text with one more definition on top.
+
+    Args:
+        source: A flat text.
+        macro: Macro name, with its parameter list if it has one.
+        value: Its replacement.
+
+    Returns:
+        The flat text.
+    """
+    return ShaderSource(source.name, f"#define {macro} {value}\n{source.text}")
+
+
 def array(values: Iterable[float]) -> str:
     """An OSL array initialiser; nine significant digits carry a float32 unchanged."""
     return "{ " + ", ".join(f"{float(value):.9g}" for value in values) + " }"

@@ -6,8 +6,8 @@ The code may read ``position`` and ``heading`` (the hit and the ray's unit direc
 the frame of the recording, in scene units). On a curved surface it sets ``curved`` to 1 and
 ``frame_normal`` to the true unit normal on the front; it may move ``position`` onto the surface.
 
-The object may be moved, turned, mirrored and scaled by the same factor along all axes. Other
-scales bend the facets but not the formula, so that normals would be wrong; a plane bears them.
+The object may be moved, turned, mirrored, scaled and sheared: the code works in the object's own
+measures, and the shader maps the normal as the object's matrix maps the surface.
 """
 
 from ..core.shapes.quadric import Quadric
@@ -30,7 +30,7 @@ _QUADRIC = (
 )
 _MESH = (
     "curved = 1; frame_normal = hoe_mesh_normal(attribute_hoe_normal, N, backfacing(), frame_x, "
-    "frame_y, cross(frame_x, frame_y));"
+    "frame_y, frame_z, mapped_x, mapped_y, mapped_z);"
 )
 _EXACT_NORMAL = parameter(
     "vector", "attribute_hoe_normal", "vector(0.0)", "Exact Normal", "From the mesh, or zero"

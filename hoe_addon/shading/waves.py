@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Recording waves in the shader: each kind gives code for ``n s`` at ``position``."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.arrays import unit
+from ..core.arrays import as_float, dot, unit
 from ..model.optical_system import SystemWaveSpec
 from ..model.waves import (
     AstigmaticSpec,
@@ -121,23 +122,34 @@ def _window(role: str, sign: str, wave: WindowSourceSpec, units_per_mm: float) -
 
 
 def _astigmatic(role: str, sign: str, wave: AstigmaticSpec, units_per_mm: float) -> ShaderPart:
-    first, second, line = f"{role}_first", f"{role}_second", f"{role}_line_direction"
+    first, second, radius = f"{role}_first", f"{role}_second", f"{role}_arc_radius"
+    chief, line = f"{role}_chief_direction", f"{role}_line_direction"
+    between_mm = as_float(wave.second_mm) - as_float(wave.first_mm)
+    forward, upright = unit(between_mm), unit(wave.line_direction)
     declared = (
         _place(first, "Place of the straight line focus, in the frame"),
         _place(second, "Place of the arc focus, in the frame"),
-        _place(line, "Direction of the straight line focus"),
+        parameter("float", radius, "1.0", _label(radius), "Distance of the two places"),
+        parameter(
+            "vector", chief, "vector(0.0, 0.0, 1.0)", _label(chief), "From the first to the second"
+        ),
+        parameter(
+            "vector", line, "vector(1.0, 0.0, 0.0)", _label(line), "Of the straight line focus"
+        ),
         _beam(role),
     )
     return ShaderPart(
         parameters=" ".join(declared),
         code=(
-            f"gradient {sign}= {role}_index * hoe_astigmatic_wave({first}, {second}, {line}, "
-            f"{role}_converging, position);"
+            f"gradient {sign}= {role}_index * hoe_astigmatic_wave({first}, {second}, {radius}, "
+            f"{chief}, {line}, {role}_converging, position);"
         ),
         sockets={
             first: _scaled(wave.first_mm, units_per_mm),
             second: _scaled(wave.second_mm, units_per_mm),
-            line: triple(unit(wave.line_direction)),
+            radius: math.hypot(*between_mm) * units_per_mm,
+            chief: triple(forward),
+            line: triple(unit(upright - dot(upright, forward) * forward)),
             **_beam_socket(role, wave.beam),
         },
     )

@@ -34,6 +34,7 @@ SLOW = {
     "07_holographic_sight",
     "08_hud_combiner",
     "10_how_much_light",
+    "11_accuracy",
 }
 """About five to ten seconds even so."""
 
@@ -56,6 +57,7 @@ RESULTS = {
     "08_hud_combiner": {"numbers.json"},
     "09_diffractive_achromat": {"numbers.json"},
     "10_how_much_light": {"models.png", "numbers.json"},
+    "11_accuracy": {"numbers.json"},
 }
 
 

@@ -2,20 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Thin reliefs in Cycles: the OSL functions against 50 digits and numpy, and oblique rays."""
 
-from collections.abc import Sequence
 from typing import Any
 
-import bpy
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from numpy.typing import NDArray
 
-from hoe_addon import resources
-from hoe_addon.blender import nodes
-from hoe_addon.blender.osl import compiled
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.render_settings import set_up
 from hoe_addon.blender.trace import trace_cycles
 from hoe_addon.core.efficiency.profiles import Binary, Profile, Sawtooth, Sinusoid
 from hoe_addon.core.efficiency.segments import Segments, Steps, joined_samples, triangle
@@ -24,7 +16,7 @@ from hoe_addon.model.document import hologram_from
 from hoe_addon.model.evaluate import trace
 from hoe_addon.model.rays import RayTable
 from hoe_addon.shading.efficiency.relief import segments_function, steps_function
-from hoe_addon.shading.source import ShaderSource, array
+from tests.hard_cases.osl_values import values_of
 
 pytestmark = pytest.mark.render
 
@@ -34,71 +26,9 @@ RELATIVE = 2e-6
 ABSOLUTE = 2e-6
 """Of a share: alpha h of up to 20 waves is rounded by 1e-6 in single pieces of the sum."""
 
-WIDTH = 64
-HEADERS = ("hoe_medium.h", "hoe_kinoform.h", "hoe_math.h", "hoe_relief.h")
-
 LEVELS = (0, 2, 3, 4, 5, 7, 8, 16, 63, 256, 1024)
 OFFSETS = (0.0, *(sign * 10.0**-k for k in range(3, 13) for sign in (1, -1)))
 DEEPEST = 20.0
-
-
-def values_of(
-    scene: Any, call: str, rows: Sequence[tuple[float, ...]], functions: str = ""
-) -> NDArray[np.float64]:
-    """Evaluate an OSL expression of the numbers a[0], a[1], ... of each row, in Cycles' cameras.
-
-    A share comes back as mantissa and exponent, since Cycles drops what is very dark.
-    """
-    height, size = -(-len(rows) // WIDTH), len(rows[0])
-    table = np.zeros((height * WIDTH, size))
-    table[: len(rows)] = rows
-    headers = "".join(
-        line + "\n"
-        for name in HEADERS
-        for line in resources.osl_path(name).read_text("utf-8").splitlines()
-        if not line.startswith("#include")
-    )
-    text = f"""{headers}{functions}
-shader hoe_test_values(output point position = 0.0, output vector direction = vector(0, 0, 1),
-                       output color throughput = 1.0)
-{{
-    float numbers[{table.size}] = {array(table.ravel())};
-    point raster = camera_shader_raster_position();
-    int row = (int)floor(raster[1] * {height});
-    int first = {size} * ({WIDTH} * row + (int)floor(raster[0] * {WIDTH}));
-    float a[{size}];
-    for (int k = 0; k < {size}; ++k)
-        a[k] = numbers[first + k];
-    float value = {call};
-    float power = value > 0.0 ? logb(value) : 0.0;
-    throughput = color(value * exp2(-power), power + 200.0, 1.0);
-}}
-"""
-    pixels = picture_of(scene, ShaderSource("hoe_test_values", text), height)
-    assert np.all(pixels[..., 2] == 1.0)
-    # Pixel rows are counted from the top, raster from the bottom.
-    found = (pixels[..., 0] * 2.0 ** (pixels[..., 1] - 200.0))[::-1].ravel()
-    return found[: len(rows)]
-
-
-def picture_of(scene: bpy.types.Scene, camera_shader: ShaderSource, height: int) -> Any:
-    """Render the throughput of a camera before a white world."""
-    camera = bpy.data.cameras.new("Values")
-    camera.type, camera.custom_mode = "CUSTOM", "INTERNAL"
-    camera.custom_bytecode = compiled(camera_shader)
-    camera.custom_bytecode_hash = camera_shader.digest
-    scene.camera = bpy.data.objects.new("Values", camera)
-    scene.collection.objects.link(scene.camera)
-    scene.world = bpy.data.worlds.new("White")
-    tree = nodes.new_tree(scene.world)
-    background = tree.nodes.new("ShaderNodeBackground")
-    background.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
-    output = tree.nodes.new("ShaderNodeOutputWorld")
-    tree.links.new(background.outputs[0], output.inputs["Surface"])
-    set_up(scene, samples=1, seed=0, spectral=False, max_bounces=4)
-    scene.cycles.pixel_filter_type = "BOX"
-    scene.render.resolution_x, scene.render.resolution_y = WIDTH, height
-    return render_layers(scene, (COMBINED,))[COMBINED].astype(np.float64)
 
 
 def exact(order: int, alpha: float, levels: int) -> mpf:

@@ -19,7 +19,7 @@ from hoe_addon.shading.waves import wave_part
 DOCUMENTS = json.loads(
     (Path(__file__).parents[1] / "documents" / "waves.json").read_text(encoding="utf-8")
 )
-LENGTHS = ("position", "first", "second", "thickness", "span")
+LENGTHS = ("position", "first", "second", "radius", "thickness", "span")
 """Words in the names of sockets that are lengths, or places."""
 
 

@@ -13,6 +13,10 @@ and beta along y. Neither depends on beta, and both families stay apart exactly 
 Where the permittivity is real and positive both problems are made Hermitian, so that mu is real
 to the last bit. Nothing further on depends on the sign of gamma.
 
+In conical mount a mode with mu = 0 belongs to both families, which then no longer span all fields;
+for 1/mu as many digits are lost beside it. A layer of one material needs no modes there, see
+`scattering.uniform_scatter`; any other one is moved off such a point, see `conical_modes`.
+
 References:
     Li (1993), Multilayer modal method for diffraction gratings of arbitrary profile, depth, and
     permittivity, J. Opt. Soc. Am. A 10, 2581, doi:10.1364/JOSAA.10.002581.
@@ -27,6 +31,12 @@ import numpy as np
 from ..arrays import ComplexArray, FloatArray
 from .factorisation import Factors, Matrix
 from .stack import Pattern, Uniform
+
+_LEAST_MU = 1e-7
+"""Closer to mu = 0 than this fewer than nine digits are left."""
+_OFF = 3e-7
+"""What the permittivities are raised by there, and mu with them: some 1e-6 of the phase of a
+wavelength of thickness."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +115,27 @@ def lsm_modes(pattern: Pattern, alpha: FloatArray, permittivity: ComplexArray) -
         mu, field = np.linalg.eig(np.linalg.solve(factors.reciprocal, operator))
         across = factors.reciprocal @ field
     return LsmModes(mu, field, across, factors.direct_inverse @ (alpha[:, :, None] * field))
+
+
+def conical_modes(
+    pattern: Pattern, alpha: FloatArray, permittivity: ComplexArray
+) -> tuple[LseModes, LsmModes]:
+    """Return both families, so that together they span all fields.
+
+    Args:
+        pattern: The layer, without its shift.
+        alpha: Wave numbers along x of all harmonics, over k0, shape ``(B, n)``.
+        permittivity: Of all materials, shape ``(B, M)``.
+
+    Returns:
+        The modes; where one would have mu = 0, those of slightly higher permittivities.
+    """
+    lse = lse_modes(pattern, alpha, permittivity)
+    shared = np.min(np.abs(lse.mu), axis=1) < _LEAST_MU
+    if np.any(shared):
+        permittivity = permittivity + np.where(shared, _OFF, 0.0)[:, None]
+        lse = lse_modes(pattern, alpha, permittivity)
+    return lse, lsm_modes(pattern, alpha, permittivity)
 
 
 def _definite(operator: Matrix, factors: Factors) -> tuple[FloatArray, Matrix, Matrix]:

@@ -135,21 +135,61 @@ def layer_scatter(
         ValueError: If no modes are given.
     """
     if lse is not None and lsm is not None:
-        channel, (even, odd) = Channel.BOTH, _both(lse, lsm, depth, beta)
-    elif lse is not None:
-        channel, (even, odd) = Channel.ALONG, _along(lse, depth)
-    elif lsm is not None:
-        channel, (even, odd) = Channel.ACROSS, _across(lsm, depth)
-    else:
+        return _symmetric(*_both(lse, lsm, depth, beta), reference, Channel.BOTH)
+    if lsm is not None:
+        return _symmetric(*_across(lsm, depth), reference, Channel.ACROSS)
+    if lse is None:
         raise ValueError("no modes")
-    root = reference.root(channel)[:, :, None]
-    first = _reflection(even[0] * root, even[1] / root)
-    second = _reflection(odd[0] * root, odd[1] / root)
-    through, back = 0.5 * (first - second), 0.5 * (first + second)
-    return Scatter(back, through, back, through, reference.along.shape[1])
+    return _symmetric(*_along(lse, depth), reference, Channel.ALONG)
+
+
+def uniform_scatter(
+    permittivity: ComplexArray,
+    alpha: FloatArray,
+    depth: FloatArray,
+    beta: FloatArray,
+    reference: Reference,
+) -> Scatter:
+    """Return the scattering matrix of a layer of one material in conical mount.
+
+    With M = ((eps - beta^2, alpha beta), (alpha beta, eps - alpha^2)), v' = i M u and
+    u' = i adj(M) v / eps: any electric field of one harmonic is a mode.
+
+    Args:
+        permittivity: Shape ``(B,)``, not 0.
+        alpha: Wave numbers along x over k0, shape ``(B, n)``.
+        depth: Thickness times k0, shape ``(B,)``.
+        beta: Wave number along y over k0, shape ``(B,)``.
+        reference: Reference admittances.
+
+    Returns:
+        The matrix, channel BOTH.
+    """
+    value, slope = permittivity[:, None], beta[:, None]
+    along, mixed, across = value - alpha**2, alpha * slope, value - slope**2
+    cosine, short, _ = _waves(along, beta, depth)
+
+    def blocks(xx: ComplexArray, xy: ComplexArray, yy: ComplexArray) -> ComplexArray:
+        on, off, last = (part[:, :, None] * np.eye(part.shape[1]) for part in (xx, xy, yy))
+        return np.block([[on, off], [off, last]])
+
+    c, s = cosine[:, 0], 1j * short[:, 0]
+    same, q = blocks(c, 0.0 * c, c), s / value
+    even = same, blocks(across * s, mixed * s, along * s)
+    odd = blocks(along * q, -mixed * q, across * q), same
+    return _symmetric(even, odd, reference, Channel.BOTH)
 
 
 type _Fields = tuple[ComplexArray, ComplexArray]
+
+
+def _symmetric(even: _Fields, odd: _Fields, reference: Reference, channel: Channel) -> Scatter:
+    """Join the parts with even and with odd electric field."""
+    root = reference.root(channel)[:, :, None]
+    first = _reflection(even[0] * root, even[1] / root)
+    second = _reflection(odd[0] * root, odd[1] / root)
+    back, through = 0.5 * (first + second), 0.5 * (first - second)
+    return Scatter(back, through, back, through, reference.along.shape[1])
 
 
 def _reflection(u: ComplexArray, v: ComplexArray) -> ComplexArray:
@@ -175,8 +215,7 @@ def _waves(
     change: ComplexArray = np.expm1(turn)
     small = np.abs(turn) < 1e-12
     ratio: ComplexArray = np.where(small, 1.0, change / np.where(small, 1.0, turn))
-    sine = 0.5 * depth[:, None] * ratio
-    cosine = 1.0 + 0.5 * change
+    cosine, sine = 1.0 + 0.5 * change, 0.5 * depth[:, None] * ratio
     return cosine[:, None, :], sine[:, None, :], (gamma**2)[:, None, :] * sine[:, None, :]
 
 

@@ -15,10 +15,18 @@ from .blas import one_thread
 from .factorisation import SingularError
 from .halfspace import HalfSpace
 from .light import PlaneWaves, Solution
-from .modes import LseModes, LsmModes, lse_modes, lsm_modes
+from .modes import LseModes, LsmModes, conical_modes, lse_modes, lsm_modes
 from .runs import Kept, Run, equal_runs
-from .scattering import Channel, Reference, Scatter, layer_scatter, repeated, star
-from .stack import Layer, Pattern, Repeat, Stack
+from .scattering import (
+    Channel,
+    Reference,
+    Scatter,
+    layer_scatter,
+    repeated,
+    star,
+    uniform_scatter,
+)
+from .stack import Layer, Pattern, Repeat, Stack, Uniform
 
 type Progress = Callable[[float], None]
 """Told the share that is done, 0 to 1; it may raise `CancelledError` to stop the work."""
@@ -192,16 +200,18 @@ class _Problem:
         # Modes do not depend on the thickness, so layers of one pattern share them.
         lse = Kept[Pattern, LseModes](pattern for pattern, _ in set(kinds))
         lsm = Kept[Pattern, LsmModes](pattern for pattern, _ in set(kinds))
+        both = Kept[Pattern, tuple[LseModes, LsmModes]](pattern for pattern, _ in set(kinds))
 
         def make(layer: Layer) -> Scatter:
-            at = (layer.pattern, self._alpha, self._table)
-            no_ex = no_hx = None
-            if channel is not Channel.ACROSS:
-                no_ex = lse.get(layer.pattern, lambda: lse_modes(*at))
-            if channel is not Channel.ALONG:
-                no_hx = lsm.get(layer.pattern, lambda: lsm_modes(*at))
-            depth = layer.thickness * self._k0
-            return layer_scatter(no_ex, no_hx, depth, self._beta, self._reference)
+            at, pattern = (layer.pattern, self._alpha, self._table), layer.pattern
+            waves = (layer.thickness * self._k0, self._beta, self._reference)
+            if channel is Channel.ALONG:
+                return layer_scatter(lse.get(pattern, lambda: lse_modes(*at)), None, *waves)
+            if channel is Channel.ACROSS:
+                return layer_scatter(None, lsm.get(pattern, lambda: lsm_modes(*at)), *waves)
+            if isinstance(pattern, Uniform):
+                return uniform_scatter(self._table[:, pattern.material], self._alpha, *waves)
+            return layer_scatter(*both.get(pattern, lambda: conical_modes(*at)), *waves)
 
         for run in runs:
             if isinstance(run, Repeat):

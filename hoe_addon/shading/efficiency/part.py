@@ -4,7 +4,8 @@
 
 The expression of a branch is evaluated where its direction is known. It may read, of the LIGHT that
 takes this branch (in a backward walk that is the reverse of the leaving ray): ``light_x`` and
-``light_y``, its n s along ``grating_x`` and ``grating_y``; ``light_from_back``; and of the hit
+``light_y``, its n s along ``grating_x`` and ``grating_y``, and ``light_normal``, the size of its
+part along the normal; ``light_from_back``; and of the hit
 ``wavelength_nm``, ``index_back``, ``index_front``, ``position``, ``grating_frequency`` (|tangential
 grad V| / lambda_0 in 1/nm), and ``object_wave`` and ``reference_wave``, n s in the world.
 """

@@ -64,8 +64,8 @@ def _share(way: Branch, ways: dict[Branch, int], model: KogelnikSpec) -> str:
     count = 1 + len(model.exposures)
     folds = int(model.total_internal_reflection)
     return (
-        "hoe_volume_share(light_x, light_y, light_from_back, emulsion_gratings, emulsion_real, "
-        f"emulsion_imag, {count}, emulsion_index, emulsion_phase, emulsion_loss, "
+        "hoe_volume_share(light_x, light_y, light_normal, light_from_back, emulsion_gratings, "
+        f"emulsion_real, emulsion_imag, {count}, emulsion_index, emulsion_phase, emulsion_loss, "
         f"index_back, index_front, {folds}, {exposure}, {way.order}, {side})"
     )
 
