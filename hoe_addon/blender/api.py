@@ -13,6 +13,8 @@
 - A hologram's properties, after ``hoe_addon.register()``: ``write_spec``, ``read_spec``,
   ``read_frame``, ``Frame``; then ``refresh`` or ``refresh_changed`` for the shader. Sources that
   are objects: ``Followed``. Maps of what has no formula: ``prepare_map``, ``update_map``.
+- Less work: ``plan_effects`` and ``planned``; ``divided``, a picture in passes; ``converge`` until
+  an error or a time, a ``QualitySpec``, is ``Reached``.
 - Results: ``render_view``, ``save_view``, ``survey``, ``render_layers``, ``denoise``,
   ``trace_cycles``.
 """
@@ -26,11 +28,15 @@ from ..model.document import (
     load_hologram,
     to_document,
 )
+from ..model.effects import plan_effects, planned
 from ..model.hologram import HologramSpec
+from ..model.quality import QualitySpec
 from ..model.scene import SceneSpec
 from ..shading.hologram import Frame
+from .converge import converge
 from .denoiser import denoise
 from .device import DeviceScene, build_device
+from .division import divided
 from .element import hologram_element, surface_of
 from .eye import add_eye, set_pupil
 from .eyebox import survey
@@ -49,6 +55,7 @@ from .materials import (
 )
 from .osl import has_osl, require_osl
 from .props.sync import read_frame, read_spec, refresh, refresh_changed, write_spec
+from .reached import Reached
 from .render import render_layers
 from .render_settings import set_up
 from .spectral import SpectralScene, spectral_scene
@@ -61,6 +68,8 @@ __all__ = [
     "Frame",
     "HologramSpec",
     "LightGuideSpec",
+    "QualitySpec",
+    "Reached",
     "SceneSpec",
     "SpectralScene",
     "absorber_material",
@@ -69,10 +78,12 @@ __all__ = [
     "add_light_engine",
     "build_device",
     "by_significance",
+    "converge",
     "denoise",
     "device_from",
     "dielectric_material",
     "display_material",
+    "divided",
     "filter_material",
     "has_osl",
     "hologram_element",
@@ -82,6 +93,8 @@ __all__ = [
     "load_hologram",
     "patch_frame",
     "picture",
+    "plan_effects",
+    "planned",
     "prepare_map",
     "read_frame",
     "read_spec",
