@@ -17,7 +17,7 @@ from hoe_addon.model.scene_view import gaze_direction, rotation_of
 
 FLOAT32 = 1e-6
 
-PRESETS = ["compact_disc", "grating_rainbow", "holographic_sight", "point_lens"]
+PRESETS = ["compact_disc", "grating_rainbow", "holographic_sight", "laser_grating", "point_lens"]
 
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """From the frame of a document to the world."""

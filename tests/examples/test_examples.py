@@ -35,6 +35,7 @@ SLOW = {
     "08_hud_combiner",
     "10_how_much_light",
     "11_accuracy",
+    "12_laser_grating",
 }
 """About five to ten seconds even so."""
 
@@ -58,6 +59,7 @@ RESULTS = {
     "09_diffractive_achromat": {"numbers.json"},
     "10_how_much_light": {"models.png", "numbers.json"},
     "11_accuracy": {"numbers.json"},
+    "12_laser_grating": {"numbers.json"},
 }
 
 

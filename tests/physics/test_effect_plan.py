@@ -17,10 +17,10 @@ import pytest
 from numpy.typing import NDArray
 
 from hoe_addon.core.efficiency import Polarization
-from hoe_addon.model.document import device_from
+from hoe_addon.model.document import device_from, load_device
 from hoe_addon.model.effects import Decision, Effect, EffectPlan, plan_effects, planned
 from hoe_addon.model.effects.holograms import holograms_of
-from hoe_addon.model.effects.light import ROOM_ALBEDO
+from hoe_addon.model.effects.light import ROOM_ALBEDO, components_of
 from hoe_addon.model.effects.plan import PROMISE
 from hoe_addon.model.scene import SceneSpec
 
@@ -553,3 +553,12 @@ def test_plan_of_what_is_left_leaves_it(name: str) -> None:
     assert isinstance(again, SceneSpec)
     assert again.render.mode == left.render.mode
     assert again.hologram("film") == left.hologram("film")
+
+
+def test_guide_with_a_red_picture_keeps_wavelengths_for_its_survey() -> None:
+    """The eyebox is measured with a white display, in the scene of the same plan."""
+    changes = ("display.image=reticle", "room.kind=none")
+    spec = load_device("two_hologram_ar", changes)
+    names = {each.name for each in components_of(spec)}
+    assert names == {"red of display", "green of display", "blue of display"}
+    assert plan_effects(spec).is_on(Effect.DISPERSION)

@@ -28,6 +28,7 @@ CLOSED_FORMS = [
     "07_holographic_sight",
     "08_hud_combiner",
     "09_diffractive_achromat",
+    "12_laser_grating",
 ]
 
 ROUNDING = 1e-12

@@ -161,9 +161,13 @@ def test_more_wavelengths_turn_dispersion_on() -> None:
     assert compare(pictures(with_everything(spec), 1), one).blocks > SIGMAS
 
 
-def test_bench_tells_what_the_plan_gains() -> None:
-    (speed,) = measure_effects(("holographic_sight",))
+@pytest.mark.parametrize(
+    ("name", "left_out"),
+    [("holographic_sight", "window:levels"), ("laser_grating", "dispersion")],
+)
+def test_bench_tells_what_the_plan_gains(name: str, left_out: str) -> None:
+    (speed,) = measure_effects((name,))
     assert abs(speed.sigmas) < SIGMAS
     assert speed.blocks < BLOCKS
     assert speed.speed_up > TWICE
-    assert "window:levels" in speed.left_out
+    assert left_out in speed.left_out

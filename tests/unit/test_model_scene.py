@@ -24,7 +24,7 @@ from hoe_addon.model.scene_view import (
 from hoe_addon.resources import preset_paths
 
 RAINBOW = "grating_rainbow"
-SCENES = ["compact_disc", "grating_rainbow", "holographic_sight", "point_lens"]
+SCENES = ["compact_disc", "grating_rainbow", "holographic_sight", "laser_grating", "point_lens"]
 
 ROUNDING = 1e-12
 

@@ -23,6 +23,8 @@ ROOM = -1
 USED_PRIMARIES = {"reticle": (0,), "speed": (1,)}
 """Red, green or blue alone in a built-in picture; the others, and files, use all three."""
 
+_PRIMARIES = (0, 1, 2)
+
 ROOM_ALBEDO = 0.3
 """Luminance of what stands in a room over that of white; rooms have 0.2 to 0.5 in the mean."""
 
@@ -72,11 +74,13 @@ def components_of(spec: DeviceSpec) -> tuple[Component, ...]:
     if spec.room.kind != "none" and spec.room.luminance_cd_m2 > 0.0:
         found.append(_component("the room", "", spec.room.luminance_cd_m2, 0.0, illuminant("D65")))
     if isinstance(spec, LightGuideSpec):
-        found += _display("display", spec.display)
+        # The survey of its eyebox shows white, whatever the picture is.
+        found += _display("display", spec.display, _PRIMARIES)
     else:
         for element in spec.elements:
             if isinstance(element, DisplayElement):
-                found += _display(element.name, element.display)
+                used = USED_PRIMARIES.get(element.display.image, _PRIMARIES)
+                found += _display(element.name, element.display, used)
             elif isinstance(element, LampElement):
                 light, area = element.spectrum.spectrum(), float(np.prod(element.size_mm))
                 found.append(
@@ -91,7 +95,7 @@ def components_of(spec: DeviceSpec) -> tuple[Component, ...]:
     return tuple(each for each in found if each.luminance > 0.0)
 
 
-def _display(name: str, display: DisplaySpec) -> list[Component]:
+def _display(name: str, display: DisplaySpec, used: tuple[int, ...]) -> list[Component]:
     shares = colour.white_balance(display.spectra(), display.white)
     words = ("red", "green", "blue")
     return [
@@ -102,7 +106,7 @@ def _display(name: str, display: DisplaySpec) -> list[Component]:
             float(np.prod(display.size_mm)),
             display.spectra()[place],
         )
-        for place in USED_PRIMARIES.get(display.image, (0, 1, 2))
+        for place in used
         if shares[place] > _LEAST_SHARE
     ]
 
