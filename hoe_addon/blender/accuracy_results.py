@@ -75,6 +75,8 @@ class Run:
         seconds_per_sample: Time of one sample per pixel: processor time, by the ratio of clock to
             processor of the reference, so that other work on the machine tells on all runs alike.
         processor_seconds_per_sample: Processor time of it, all threads together.
+        time_error: Relative standard error of these two.
+        too_short_to_time: Whether it is so large that they are not to be compared.
         finish_seconds: Time of the denoiser for one picture.
         points: Its pictures, the fewest samples first.
         lasting: What all samples say together; None for denoised pictures, whose errors are not
@@ -88,6 +90,8 @@ class Run:
     setup_seconds: float
     seconds_per_sample: float
     processor_seconds_per_sample: float
+    time_error: float
+    too_short_to_time: bool
     finish_seconds: float
     points: tuple[Point, ...]
     lasting: Lasting | None
@@ -104,7 +108,7 @@ class Accuracy:
         reference_seconds: Time of its samples.
         reference_samples: Samples per pixel of it.
         reference_sharpness: Its modulation transfer at 5 cycles per degree, where measured.
-        clock: Time by the clock over processor time, in the renders of the reference.
+        clock: Time of a sample by the clock over that by the processor, by the reference.
         why_no_sharpness: Why that is not measured; empty where it is.
         runs: Results, the device as it is first.
         not_measured: Settings without a result.

@@ -9,6 +9,7 @@ would give it, and all of them together show the noise.
 """
 
 import itertools
+import math
 import statistics
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -25,6 +26,7 @@ from .accuracy_knobs import NotMeasured, Variant, reference_spec, variants
 from .accuracy_results import Accuracy, Judge, Run
 from .accuracy_shots import Shots, division_of
 from .accuracy_target import sharpness, why_no_target
+from .accuracy_time import FixedTime, SampleTime
 from .denoiser import denoise
 from .device import DeviceScene
 from .division import Division
@@ -36,8 +38,9 @@ type Opener = Callable[[DeviceSpec], DeviceScene]
 
 _FIRST_SAMPLES = 8
 _LEAST_PICTURES = 2
-_LONGER = 1.5
-"""The longest render takes that many times the shortest, or the time of a sample is not known."""
+_LONGER, _LONGEST = 4.0, 64
+"""While the time of a sample is not known, the next render's samples take that many times what a
+render takes by itself; but it has not more than so many times the samples of the last."""
 
 _REFERENCE_SHARE = 0.5
 _BASE_WEIGHT = 3.0
@@ -81,8 +84,9 @@ class _Watch:
 class _Court:
     """The reference, and what it took.
 
-    ``clock`` is the time by the clock over that by the processor. It makes processor time, which
-    other work on the machine disturbs little, into the time that one waits.
+    ``clock`` is the time of a sample by the clock over that by the processor. It makes processor
+    time, which other work on the machine disturbs little, into the time that one waits. ``fixed``
+    is what a render of the device takes by itself.
     """
 
     judge: Judge
@@ -91,6 +95,7 @@ class _Court:
     sharpness: Estimate | None
     division: Division
     clock: float
+    fixed: FixedTime
 
 
 def measure_accuracy(
@@ -180,7 +185,7 @@ def _reference(spec: DeviceSpec, build: Opener, watch: _Watch, seeds: Iterator[i
         for _ in range(2):
             shots.shoot(samples)
             watch.tell()
-        each = shots.seconds_per_sample
+        each = shots.clock_time.seconds
         samples = max(samples, min(2 * samples, most, int(_PIECE_SHARE * until / each)))
         longer = shots.views[-1].seconds + (samples - shots.samples[-1]) * each
         stopped = watch.stop() or watch.spent + 2 * longer > until
@@ -191,8 +196,9 @@ def _reference(spec: DeviceSpec, build: Opener, watch: _Watch, seeds: Iterator[i
     contrast = None
     if not why_no_target(spec):
         contrast = sharpness(shots.device, _TARGET_SAMPLES * shots.samples[-1], next(seeds))
-    work = sum(shots.work)
-    return _Court(judge, work * each, work, contrast, shots.division, shots.clock)
+    work, clock, sample = sum(shots.work), shots.clock, shots.processor_time
+    seconds, fixed = work * clock * sample.seconds, sample.for_other_settings()
+    return _Court(judge, seconds, work, contrast, shots.division, clock, fixed)
 
 
 def _field(spec: DeviceSpec, light: np.ndarray) -> BoolArray:
@@ -213,7 +219,7 @@ def _runs(
     """Measure variants that are the same device."""
     started = time.perf_counter()
     device = build(group[0].spec)
-    shots = Shots(device, seeds, division_of(device, court.division))
+    shots = Shots(device, seeds, division_of(device, court.division), court.fixed)
     built = time.perf_counter() - started
     shots.shoot(_FIRST_SAMPLES)
     most = max(2 * _FIRST_SAMPLES, court.samples / _NOISE_ROOM)
@@ -222,15 +228,25 @@ def _runs(
         shots.shoot(samples)
         watch.tell()
         samples *= 2
-        spent = time.perf_counter() - started
-        enough = len(shots.views) > _LEAST_PICTURES and (
-            shots.processor[-1] > _LONGER * shots.processor[1] or spent > share
-        )
-        if enough and (samples > most or spent + samples * shots.seconds_per_sample > share):
-            break
+        if len(shots.views) <= _LEAST_PICTURES:
+            continue
+        sample = shots.processor_time
+        until = time.perf_counter() - started + samples * court.clock * sample.seconds
+        if samples > most or until > share:
+            samples = 0 if sample.is_known else _telling(shots, sample)
+            if samples <= shots.samples[-1]:
+                break
     if len(shots.views) <= 1:
         raise CancelledError("stopped by the user")
     return [_run(variant, shots, built, court, next(seeds)) for variant in group]
+
+
+def _telling(shots: Shots, sample: SampleTime) -> int:
+    """Samples of a render that is long enough to tell the time of a sample."""
+    fixed = sample.fixed.seconds * len(shots.division.passes)
+    share = shots.work[-1] / shots.samples[-1]
+    wanted = math.ceil(_LONGER * fixed / (share * (sample.seconds + sample.error)))
+    return min(wanted, _LONGEST * shots.samples[-1])
 
 
 def _finished(variant: Variant, views: Sequence[View]) -> tuple[list[View], float]:
@@ -250,7 +266,8 @@ def _finished(variant: Variant, views: Sequence[View]) -> tuple[list[View], floa
 def _run(variant: Variant, shots: Shots, built: float, court: _Court, seed: int) -> Run:
     """Judge the renders of one variant."""
     judge = court.judge
-    each = court.clock * shots.processor_seconds_per_sample
+    sample = shots.processor_time
+    each = court.clock * sample.seconds
     pieces = shots.pictures()
     variance = pieces.sample_variance()
     # The first render set the scene up, so it is no measure of time.
@@ -267,9 +284,11 @@ def _run(variant: Variant, shots: Shots, built: float, court: _Court, seed: int)
     return Run(
         variant=variant,
         build_seconds=built,
-        setup_seconds=shots.setup_seconds,
+        setup_seconds=max(0.0, shots.views[0].seconds - shots.work[0] * each),
         seconds_per_sample=each,
-        processor_seconds_per_sample=shots.processor_seconds_per_sample,
+        processor_seconds_per_sample=sample.seconds,
+        time_error=sample.relative_error,
+        too_short_to_time=not sample.is_known,
         finish_seconds=finish,
         points=points,
         lasting=None if variant.denoised else judge.lasting(pieces, shots.displays()),

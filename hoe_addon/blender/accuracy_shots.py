@@ -6,10 +6,8 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..core.picture_pieces import Pieces
+from .accuracy_time import FixedTime, SampleTime, sample_time
 from .device import DeviceScene
 from .division import Division, divided
 from .passes import is_divisible
@@ -24,6 +22,7 @@ class Shots:
         device: The device in its scene.
         seeds: Where each render takes its seed from.
         division: How its picture is divided into passes.
+        fixed: What is known of the processor time that each render takes by itself.
         views: The pictures.
         samples: Samples per pixel of each, as they were asked for.
         work: The same as they were done: all samples of all passes, over the pixels.
@@ -33,6 +32,7 @@ class Shots:
     device: DeviceScene
     seeds: Iterator[int]
     division: Division
+    fixed: FixedTime = FixedTime()  # noqa: RUF009 (frozen)
     views: list[View] = field(default_factory=list[View])
     samples: list[int] = field(default_factory=list[int])
     work: list[float] = field(default_factory=list[float])
@@ -62,28 +62,28 @@ class Shots:
         self.work.append(sum(count * each.pixels for count, each in counts) / (width * height))
 
     @property
-    def seconds_per_sample(self) -> float:
-        """Time of one sample per pixel by the clock, by the first render where it stands alone."""
-        return self._warm_slope([view.seconds for view in self.views])
+    def clock_time(self) -> SampleTime:
+        """Time of a sample by the clock, by all renders but the first, which sets the scene up."""
+        return self._time([view.seconds for view in self.views], FixedTime())
 
     @property
-    def processor_seconds_per_sample(self) -> float:
-        """The same by the processor."""
-        return self._warm_slope(self.processor)
+    def processor_time(self) -> SampleTime:
+        """The same by the processor, all threads together."""
+        return self._time(self.processor, self.fixed)
 
-    def _warm_slope(self, seconds: Sequence[float]) -> float:
+    def _time(self, seconds: Sequence[float], fixed: FixedTime) -> SampleTime:
         warm = slice(1, None) if len(self.views) > 1 else slice(None)
-        return slope(self.work[warm], seconds[warm])
+        return sample_time(self.work[warm], seconds[warm], fixed, len(self.division.passes))
 
     @property
     def clock(self) -> float:
-        """Time by the clock over that by the processor, over all renders but the first."""
-        return sum(view.seconds for view in self.views[1:]) / sum(self.processor[1:])
+        """Time of a sample by the clock over that by the processor."""
+        return self.clock_time.seconds / self.processor_time.seconds
 
     @property
-    def setup_seconds(self) -> float:
-        """What the first render took beyond its samples."""
-        return max(0.0, self.views[0].seconds - self.work[0] * self.seconds_per_sample)
+    def processor_seconds_per_sample(self) -> float:
+        """Processor time of a sample, all threads together."""
+        return self.processor_time.seconds
 
     def pictures(self) -> Pieces:
         """All light, render by render."""
@@ -111,24 +111,3 @@ def division_of(device: DeviceScene, known: Division | None = None) -> Division:
     if known is None or len(known.passes) == 1 or not is_divisible(device):
         return divided(device)
     return replace(known, passes=tuple(replace(each, device=device) for each in known.passes))
-
-
-def slope(samples: Sequence[float], seconds: Sequence[float]) -> float:
-    """Time of a sample: the slope of time over samples, where what is the same for all is left out.
-
-    Args:
-        samples: Samples per pixel of each render, at least one.
-        seconds: Time of each.
-
-    Returns:
-        Slope of the straight line whose relative deviations are least, in seconds per sample. It
-        starts at zero or above, and rises.
-    """
-    count = np.array(samples, dtype=np.float64)
-    spent = np.array(seconds, dtype=np.float64)
-    through_zero = float(np.sum(count / spent) / np.sum((count / spent) ** 2))
-    if np.unique(count).size < 2:
-        return through_zero
-    rows: NDArray[np.float64] = np.stack([1.0 / spent, count / spent], axis=1)
-    fixed, each = np.linalg.lstsq(rows, np.ones_like(spent))[0].tolist()
-    return each if fixed >= 0.0 and each > 0.0 else through_zero

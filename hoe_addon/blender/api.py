@@ -33,7 +33,7 @@ from ..model.hologram import HologramSpec
 from ..model.quality import QualitySpec
 from ..model.scene import SceneSpec
 from ..shading.hologram import Frame
-from .converge import converge
+from .convergence import converge
 from .denoiser import denoise
 from .device import DeviceScene, build_device
 from .division import divided

@@ -240,6 +240,7 @@ def _measured(name: str) -> EffectSpeed:
         left_out=tuple(
             f"{each.hologram}:{each.effect}" if each.hologram else str(each.effect)
             for each in planned.plan.left_out
+            if each.present
         ),
         promise=planned.plan.promise,
     )

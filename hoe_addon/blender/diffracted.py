@@ -5,16 +5,16 @@
 With the eye's response in front of the camera, every path has a wavelength, and all that is seen
 has the noise of it. But order 0 of a thin hologram in one medium, with a constant share, goes alike
 at all wavelengths. So here the response stands at the light sources, and counts for the paths that
-have gone through a portal alone; order 0 is no portal, and light that comes by it has its colour
-at once. The mean of the response is 1, and its mean with the emission of a display is the display's
-colour, so both pictures have the same mean.
+have gone through a portal alone; for order 0 the hologram is transparent, and what comes by it has
+its colour at once. The mean of the response is 1, and its mean with the emission of a display is
+the display's colour, so both pictures have the same mean.
 """
 
 from collections.abc import Iterator, Mapping
 
 import bpy
 
-from ..core.orders import REFLECTED_ZERO, TRANSMITTED_ZERO
+from ..core.orders import TRANSMITTED_ZERO
 from ..model.device import DeviceSpec
 from ..model.effects.light import USED_PRIMARIES
 from ..model.efficiency import ConstantSpec
@@ -22,7 +22,6 @@ from ..model.hologram import HologramSpec
 from ..model.scene import SceneSpec
 from ..model.scene_parts import DisplayElement, HologramElement, LampElement
 from ..model.scene_spectra import IlluminantSpec
-from ..model.surface import PlaneSurface
 from ..shading.source import ShaderSource, defining
 from ..shading.wavelength import response_shader
 from . import nodes
@@ -35,26 +34,20 @@ FLOOR = 0.1
 diffraction only in part, and needs no wavelengths for the rest."""
 
 
-def plain_orders(spec: HologramSpec) -> str | None:
-    """Which orders of a hologram are alike at all wavelengths, as the shader's condition.
+def is_plain(spec: HologramSpec) -> bool:
+    """Tell whether order 0 goes straight through a hologram, alike at all wavelengths.
 
     Args:
         spec: The hologram.
 
     Returns:
-        An OSL expression of ``order`` and ``side``, or None where there are no such orders.
+        True for constant shares with order 0 among them, one medium on both sides, and no haze.
     """
     model = spec.efficiency
     if not isinstance(model, ConstantSpec) or model.haze is not None:
-        return None
+        return False
     branches = model.branches(spec.orders, spec.pattern.wavelength_nm)
-    mirrors = REFLECTED_ZERO in branches and isinstance(spec.surface, PlaneSurface)
-    passes = TRANSMITTED_ZERO in branches and spec.media.back == spec.media.front
-    if mirrors and passes:
-        return "(order == 0)"
-    if mirrors or passes:
-        return f"(order == 0 && side == HOE_{'REFLECTED' if mirrors else 'TRANSMITTED'})"
-    return None
+    return TRANSMITTED_ZERO in branches and spec.media.back == spec.media.front
 
 
 def is_worth_it(spec: DeviceSpec) -> bool:
@@ -78,7 +71,7 @@ def is_worth_it(spec: DeviceSpec) -> bool:
         or (isinstance(each, LampElement) and not isinstance(each.spectrum, IlluminantSpec))
         for each in spec.elements
     )
-    return coloured and any(plain_orders(each) for each in _holograms(spec).values())
+    return coloured and any(is_plain(each) for each in _holograms(spec).values())
 
 
 def used_primaries(element: DisplayElement) -> tuple[float, float, float]:
@@ -105,19 +98,13 @@ def count_after_diffraction(
     for material in _materials(scene):
         _specialise_material(material, spectral)
     for name, hologram in _holograms(spec).items():
-        condition = plain_orders(hologram)
-        if condition is not None:
-            _make_plain(scene.objects[name], condition)
+        if is_plain(hologram):
+            _make_plain(scene.objects[name])
     lights = {item.data for item in scene.objects if isinstance(item.data, bpy.types.Light)}
     for light in lights:
         _respond(_white_tree(light), "ShaderNodeEmission", spectral)
     if scene.world is not None and scene.world.node_tree is not None:
         _respond(scene.world.node_tree, "ShaderNodeBackground", spectral)
-    settings = scene.cycles
-    # Order 0 counts as a bounce now: as many as before stay free of Russian roulette.
-    settings.min_light_bounces = 1
-    settings.max_bounces = max(settings.max_bounces, spec.render.max_bounces)
-    settings.transmission_bounces = max(settings.transmission_bounces, spec.render.max_bounces)
 
 
 def _holograms(spec: SceneSpec) -> Mapping[str, HologramSpec]:
@@ -151,9 +138,9 @@ def _specialise_material(material: bpy.types.Material, spectral: SpectralScene) 
     _respond(tree, "ShaderNodeEmission", spectral)
 
 
-def _make_plain(item: bpy.types.Object, condition: str) -> None:
+def _make_plain(item: bpy.types.Object) -> None:
     node = nodes.script_node(item.active_material)
-    nodes.set_script(node, defining(_source(node), "HOE_PLAIN(order, side)", condition))
+    nodes.set_script(node, defining(_source(node), "HOE_PLAIN"))
     # Cycles counts portals only where a material has Blender's own node for them; no face has this
     # material.
     counter = bpy.data.materials.new("Portal Counter")

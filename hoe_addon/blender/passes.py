@@ -9,8 +9,10 @@ pass follows its own orders at the first surface of a path and all orders at the
 weight is divided by a probability, nothing is left out, Cycles keeps its stratification, and the
 sum is the whole picture.
 
-A path that meets no hologram first is the same in every pass. Each counts a share of it, by the
-filter in front of the eye, and the hologram gives the share back to the paths that meet it.
+A path that meets no hologram first is the same in every pass. Each pass counts a share of it, by
+scaling its picture, and the hologram gives the share back to the paths that meet it. (A filter in
+front of the eye could scale as well, but Cycles drops closures below 1e-5, and the weight of a
+laser in it is small already.)
 """
 
 import contextlib
@@ -100,8 +102,9 @@ class Pass:
                 region=self.region,
                 progress=progress,
             )
-        if self.inside is not None:
-            for pixels in found.values():
+        for pixels in found.values():
+            pixels *= self.share
+            if self.inside is not None:
                 pixels[self.inside.slices] *= self.weight
         return found
 
@@ -134,7 +137,6 @@ def _set_up(this: Pass) -> Iterator[None]:
         "first_orders": int(this.orders),
         "first_gain": 1.0 / this.share,
         "sampling": this.sampling,
-        "share": this.share,
     }
     found = [
         (socket, socket.default_value) for name in values for socket in _sockets(this.device, name)

@@ -26,6 +26,8 @@ class Reached:
         seconds: All the time taken, denoising counted.
         samples: Samples per pixel by pass.
         end: Why it ended.
+        set_up: Seconds until the first samples of every pass were there, before which nothing ends.
+        too_few: Whether the picture was to be denoised but had too few samples to judge that by.
     """
 
     request: QualitySpec
@@ -34,6 +36,8 @@ class Reached:
     seconds: float
     samples: Mapping[str, int]
     end: End
+    set_up: float = 0.0
+    too_few: bool = False
 
     @property
     def denoising_helps(self) -> bool:
@@ -51,9 +55,10 @@ class Reached:
             **_plain(self.picture),
             "confidence": self.picture.confidence,
             "seconds": round(self.seconds, 3),
+            "set_up_seconds": round(self.set_up, 3),
             "samples": sum(self.samples.values()),
             "end": self.end,
-            "png": _plain(shown),
+            "png": {**_plain(shown), "denoised": self.denoising_helps},
         }
 
 

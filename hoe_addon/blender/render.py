@@ -137,9 +137,12 @@ def _set_region(scene: bpy.types.Scene, region: Region | None) -> None:
     if region is not None:
         width, height = render.resolution_x, render.resolution_y
         render.use_crop_to_border = False
-        render.border_min_x, render.border_max_x = region.left / width, region.right / width
-        render.border_min_y = 1.0 - region.bottom / height
-        render.border_max_y = 1.0 - region.top / height
+        # Blender multiplies in single precision and cuts the rest off: half a pixel is safe.
+        bottom, top = height - region.bottom, height - region.top
+        render.border_min_x = (region.left + 0.5) / width
+        render.border_max_x = min((region.right + 0.5) / width, 1.0)
+        render.border_min_y = (bottom + 0.5) / height
+        render.border_max_y = min((top + 0.5) / height, 1.0)
 
 
 def _render_part(

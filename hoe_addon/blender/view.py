@@ -196,6 +196,7 @@ def _effects(plan: EffectPlan) -> dict[str, Any]:
                 "overridden": each.overridden,
             }
             for each in plan.left_out
+            if each.present
         ],
         "promised_relative_error": plan.promise,
     }

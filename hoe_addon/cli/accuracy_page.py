@@ -7,7 +7,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .accuracy_report import Report, name_of
+from .accuracy_report import Report, name_of, time_of
 
 if TYPE_CHECKING:
     from ..blender.accuracy_results import Accuracy
@@ -25,7 +25,7 @@ th, td { border-bottom: 1px solid #ccc; padding: 0.2em 0.6em; text-align: right;
 th:nth-child(2), td:nth-child(2) { text-align: left; }
 .front { background: #fff3c4; }
 """
-_KEY = "Shaded: on the Pareto front. &lt;: limited by the reference."
+_KEY = "Shaded: on the Pareto front. &lt;: limited by the reference. ?: too short to time."
 _HEADS = (
     "run",
     "setting",
@@ -89,8 +89,8 @@ def _summary(report: Report) -> str:
     width, height = report["size"]
     machine = report["machine"]
     return (
-        f"{report['title']}. {width} x {height} pixels; errors over the "
-        f"{report['field']['what']}, {report['field']['pixels']} pixels. {machine['threads']} "
+        f"{report['title']}. {width} x {height} pixels; errors over "
+        f"{report['field']['pixels']} of them ({report['field']['what']}). {machine['threads']} "
         f"threads of {machine['processor']}, {machine['system']}, Blender {report['blender']}, "
         f"hoe_addon {report['hoe_addon']}, budget {report['budget_seconds']:g} s."
     )
@@ -130,10 +130,7 @@ def _table(report: Report) -> list[str]:
             front = ' class="front"' if point["on_pareto_front"] else ""
             cells = "".join(f"<td>{escape(text)}</td>" for text in _cells(run, point, last))
             rows.append(f"<tr{front}>{cells}</tr>\n")
-    return [
-        *rows,
-        "</table>\n<p>Shaded: on the Pareto front. &lt;: limited by the reference.</p>\n",
-    ]
+    return [*rows, f"</table>\n<p>{_KEY}</p>\n"]
 
 
 def _cells(run: Report, point: Report, last: bool) -> list[str]:
@@ -143,7 +140,7 @@ def _cells(run: Report, point: Report, last: bool) -> list[str]:
         str(run["number"]),
         name_of(run),
         str(point["samples"]),
-        f"{point['seconds']:.3g}",
+        time_of(run, point),
         _number(point, "error", 100.0, " %"),
         _number(point, "display_error", 100.0, " %"),
         _number(point, "worst_region", 100.0, " %"),

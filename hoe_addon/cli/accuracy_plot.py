@@ -34,6 +34,7 @@ _FRONT = {
     "markersize": 8,
     "label": "Pareto front",
 }
+_HOLLOW = "hollow: limited by the reference"
 
 
 def require_plots() -> None:
@@ -94,7 +95,10 @@ def _draw_all(axes: Any, key: Any, report: Report) -> None:
     """All pictures, those on the Pareto front numbered, and the key to the numbers."""
     for number, run in enumerate(report["runs"]):
         label = "one line: one setting, 8, 16, 32 ... samples" if number == 0 else None
-        axes.loglog(*_curve(run), ".-", color="0.75", linewidth=0.8, markersize=5, label=label)
+        axes.loglog(*_curve(run), "-", color="0.75", linewidth=0.8, label=label)
+        for point in run["points"]:
+            face = _face(point, "0.75")
+            axes.plot(*_place(point), ".", color="0.75", markerfacecolor=face, markersize=5)
     front = [
         (point["seconds"], point["shown_error"], run, point)
         for run in report["runs"]
@@ -104,6 +108,11 @@ def _draw_all(axes: Any, key: Any, report: Report) -> None:
     front.sort(key=lambda each: each[0])
     places = [each[:2] for each in front]
     axes.loglog(*zip(*places, strict=True), **_FRONT)
+    for _, _, _, point in front:
+        axes.plot(
+            *_place(point), **{**_FRONT, "label": None, "markerfacecolor": _face(point, "gold")}
+        )
+    axes.plot([], [], "o", color="black", markerfacecolor="white", label=_HOLLOW)
     own = report["reference"]["own_errors"]["error"]
     axes.axhline(own, color="tab:orange", linestyle="--", label=f"reference's own error, {own:.2%}")
     axes.legend(fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, frameon=False)
@@ -112,7 +121,8 @@ def _draw_all(axes: Any, key: Any, report: Report) -> None:
     lines = ["On the Pareto front:", ""]
     for number, (seconds, error, run, point) in enumerate(front, start=1):
         lines.append(f"{number:2}  {_short(name_of(run))}")
-        lines.append(f"      {point['samples']} samples, {seconds:.3g} s, {error:.2%}")
+        sign = "< " if _is_limited(point) else ""
+        lines.append(f"      {point['samples']} samples, {seconds:.3g} s, {sign}{error:.2%}")
     key.axis("off")
     small = len(front) > _ROOM
     key.text(
@@ -157,7 +167,7 @@ def _draw_panel(axes: Any, title: str, base: Report, runs: list[Report]) -> None
                 yerr=[[min(spread, 0.9 * error)], [spread]],
                 fmt=marker,
                 color=colour,
-                markerfacecolor="white" if "error" in point["limited"] else colour,
+                markerfacecolor=_face(point, colour),
                 markersize=5,
                 elinewidth=1,
                 capsize=2,
@@ -187,6 +197,19 @@ def _formatted(form: str) -> Callable[[float, int], str]:
 def _curve(run: Report) -> tuple[list[float], list[float]]:
     points = run["points"]
     return [point["seconds"] for point in points], [point["shown_error"] for point in points]
+
+
+def _place(point: Report) -> tuple[list[float], list[float]]:
+    return [point["seconds"]], [point["shown_error"]]
+
+
+def _is_limited(point: Report) -> bool:
+    return "error" in point["limited"]
+
+
+def _face(point: Report, colour: str) -> str:
+    """Colour inside a mark: none where the reference limits the error."""
+    return "white" if _is_limited(point) else colour
 
 
 def _short(text: str) -> str:

@@ -33,10 +33,13 @@ _MEASURES = {
     "colour": "mean distance in u'v' of the mean colours of the regions",
     "sharpness": "modulation transfer of the display's picture at 5 cycles per degree",
     "seconds": "time to render without set-up, with the denoiser where it is used: processor time "
-    "by the ratio of clock to processor in the renders of the reference",
+    "of a sample by the ratio of clock to processor in the renders of the reference",
+    "time_error": "relative standard error of the time of a sample; above 0.2 it is too short to "
+    "time: such pictures are not compared by their time",
     "seconds_to_percent": "time after which noise alone is 1 % of the mean luminance",
     "noise": "variance of the luminance of one sample, over the squared mean of the field",
-    "speed_up": "processor time to equal noise by the published algorithm, over that of the run",
+    "speed_up": "processor time to equal noise by the published algorithm, over that of the run; "
+    "its standard error is that of the times alone",
     "limited": "what is not three times larger than the reference's own error",
 }
 _PERCENT = 0.01
@@ -111,17 +114,20 @@ def _run(number: int, run: "Run", found: "Accuracy") -> Report:
         "setup_seconds": _rounded(run.setup_seconds),
         "seconds_per_sample": _rounded(run.seconds_per_sample),
         "processor_seconds_per_sample": _rounded(run.processor_seconds_per_sample),
+        "time_error": _rounded(run.time_error),
+        "too_short_to_time": run.too_short_to_time,
         "denoiser_seconds": _rounded(run.finish_seconds),
         "all_samples": _lasting(run),
         "sharpness": _estimate(run.sharpness),
-        "points": [_point(point, own) for point in run.points],
+        "points": [_point(point, run, own) for point in run.points],
     }
 
 
 def _lasting(run: "Run") -> Report | None:
-    found, each = run.lasting, run.seconds_per_sample
+    found = run.lasting
     if found is None:
         return None
+    each = None if run.too_short_to_time else run.seconds_per_sample
     return {
         "error": _estimate(found.error),
         "worst_region": _estimate(found.worst_region),
@@ -133,12 +139,13 @@ def _lasting(run: "Run") -> Report | None:
     }
 
 
-def _point(point: "Point", own: float) -> Report:
+def _point(point: "Point", run: "Run", own: float) -> Report:
     """One picture; an error that the reference limits is shown as not below the reference's own."""
     limited = "error" in point.limited
     return {
         "samples": point.samples,
         "seconds": _rounded(point.seconds),
+        "seconds_standard_error": _rounded(run.time_error * (point.seconds - run.finish_seconds)),
         "shown_error": _rounded(max(point.error.value, own) if limited else point.error.value),
         **{name: _estimate(getattr(point, name)) for name in _COLUMNS},
         "limited": list(point.limited),
@@ -147,8 +154,9 @@ def _point(point: "Point", own: float) -> Report:
 
 
 def _mark_front(runs: list[Report]) -> None:
-    """Mark the pictures that no other beats in both time and error."""
-    points = [point for run in runs for point in run["points"]]
+    """Mark the pictures that no other beats in both time and error, where the time is known."""
+    timed = [run for run in runs if not run["too_short_to_time"]] or runs
+    points = [point for run in timed for point in run["points"]]
     front = pareto_front(
         [point["seconds"] for point in points], [point["shown_error"] for point in points]
     )
@@ -159,10 +167,10 @@ def _mark_front(runs: list[Report]) -> None:
 def _compare(runs: list[Report]) -> None:
     """Say how much sooner than by the published algorithm noise is down, where that was run."""
     published = next((run for run in runs if (run["knob"], run["value"]) == PUBLISHED), None)
-    if published is None:
+    if published is None or published["too_short_to_time"]:
         return
     for run in runs:
-        if run["all_samples"] is None:
+        if run["all_samples"] is None or run["too_short_to_time"]:
             continue
         for name in ("noise", "display_noise"):
             theirs, own = (
@@ -170,7 +178,10 @@ def _compare(runs: list[Report]) -> None:
                 for each in (published, run)
             )
             ratio = theirs / own if own else None
-            run["all_samples"][name.replace("noise", "speed_up")] = _rounded(ratio)
+            spread = math.hypot(published["time_error"], run["time_error"])
+            both = None if ratio is None else (ratio, 0.0 if run is published else spread * ratio)
+            for end, value in zip(("", "_standard_error"), both or (None, None), strict=True):
+                run["all_samples"][f"{name.replace('noise', 'speed_up')}{end}"] = _rounded(value)
 
 
 def written_json(report: Report) -> list[str]:
@@ -183,8 +194,9 @@ def written_csv(report: Report) -> list[str]:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     estimates = [part for name in _COLUMNS for part in (name, f"{name}_standard_error")]
+    times = ("seconds", "seconds_standard_error")
     writer.writerow(
-        ["run", "knob", "value", "samples", "seconds", *estimates, "limited", "on_pareto_front"]
+        ["run", "knob", "value", "samples", *times, *estimates, "limited", "on_pareto_front"]
     )
     for run in report["runs"]:
         for point in run["points"]:
@@ -192,7 +204,8 @@ def written_csv(report: Report) -> list[str]:
             for name in _COLUMNS:
                 found = point[name] or {"value": "", "standard_error": ""}
                 numbers += [found["value"], found["standard_error"]]
-            start = [run["number"], run["knob"], run["value"], point["samples"], point["seconds"]]
+            start = [run["number"], run["knob"], run["value"], point["samples"]]
+            start += [point[name] for name in times]
             limited = " ".join(point["limited"])
             writer.writerow([*start, *numbers, limited, int(point["on_pareto_front"])])
     return [text.getvalue()]
@@ -209,11 +222,11 @@ def table(report: Report) -> list[str]:
         f"{report['reference']['seconds']:.1f} s; its own error {own['error']:.2%}, worst region "
         f"{own['worst_region']:.2%}, u'v' {own['colour']:.4f}",
         "",
-        f"{'':3} {'setting':46} {'samples':>7} {'time s':>7} {'error':>16} {'region':>8} "
+        f"{'':3} {'setting':46} {'samples':>7} {'time s':>13} {'error':>16} {'region':>8} "
         f"{'u_v_':>7} {'MTF 5':>6} {'s to 1 %':>9}",
     ]
     lines += [_line(run) for run in report["runs"]]
-    lines += ["", "< limited by the reference; * on the Pareto front"]
+    lines += ["", "< limited by the reference; * on the Pareto front; ? too short to time"]
     if report["reference"]["why_no_sharpness"]:
         lines.append(f"no MTF: {report['reference']['why_no_sharpness']}")
     lines += [f"not measured: {name_of(each)}: {each['why']}" for each in report["not_measured"]]
@@ -223,6 +236,12 @@ def table(report: Report) -> list[str]:
 def name_of(run: Report) -> str:
     """Knob and value for people."""
     return f"{run['knob']}: {run['value']}" if run["value"] else run["knob"]
+
+
+def time_of(run: Report, point: Report) -> str:
+    """Time of a picture with its standard error, ``?`` where it is too short to time."""
+    spread = f"{point['seconds']:.3g} +-{point['seconds_standard_error']:.1g}"
+    return f"?{spread}" if run["too_short_to_time"] else spread
 
 
 def _line(run: Report) -> str:
@@ -239,12 +258,14 @@ def _line(run: Report) -> str:
     star = "*" if point["on_pareto_front"] else " "
     return (
         f"{run['number']:2}{star} {name_of(run)[:46]:46} {point['samples']:7} "
-        f"{point['seconds']:7.2f} {error:>16} {region:>8} {colour:>7} {contrast:>6} {noise:>9}"
+        f"{time_of(run, point):>13} {error:>16} {region:>8} {colour:>7} {contrast:>6} {noise:>9}"
     )
 
 
-def _to_percent(noise: float | None, seconds_per_sample: float) -> float | None:
-    return None if noise is None else _rounded(noise * seconds_per_sample / _PERCENT**2)
+def _to_percent(noise: float | None, seconds_per_sample: float | None) -> float | None:
+    if noise is None or seconds_per_sample is None:
+        return None
+    return _rounded(noise * seconds_per_sample / _PERCENT**2)
 
 
 def _machine() -> Report:

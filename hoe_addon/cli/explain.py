@@ -24,7 +24,7 @@ all holograms; an effect is left out where the picture without it differs by les
 a relative RMS error of luminance that holds for all that is left out together. A hologram by itself
 is looked at in daylight from all directions.
 Columns: "none" is an effect that the document does not have; error is what leaving the effect out
-would cost ("-": it can not be left out); cost is the predicted time with it over the time without
+would cost ("-": it cannot be left out); cost is the predicted time with it over the time without
 it; an "!" marks what the user has decided.
 """
 
@@ -52,7 +52,8 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
         action="append",
         default=[],
         dest="assignments",
-        help="change a field of the document first; may be given more than once",
+        help="change a field of the device first (not of a hologram by itself); may be given more"
+        " than once",
     )
     parser.set_defaults(run=run)
 
@@ -98,7 +99,7 @@ def _plan(args: argparse.Namespace, promise: float) -> tuple[str, "EffectPlan"]:
             return hologram.name, plan_hologram(hologram, args.effects or (), promise)
     spec = load_device(args.document, [*args.assignments, *effects_assignment(args)])
     with naming(args.document):
-        return spec.name, plan_effects(spec, promise)
+        return spec.name, plan_effects(spec, promise, in_full=True)
 
 
 def _document(name: str, plan: "EffectPlan", promise: float) -> dict[str, Any]:
@@ -133,9 +134,12 @@ def _lines(plan: "EffectPlan", promise: float) -> Iterator[str]:
         first = "  ".join(text.ljust(width) for text, width in zip(row[:-1], widths, strict=False))
         for number, words in enumerate(textwrap.wrap(row[-1], room) or [""]):
             yield f"{first if number == 0 else ' ' * (indent - 2)}  {words}".rstrip()
-    if not plan.decisions:
+    if not any(each.present for each in plan.left_out):
         yield "everything is simulated"
-    yield f"promise: all that is left out costs {plan.promise:.2g}, at most {promise:g} is allowed"
+    forced = any(each.overridden and each.present for each in plan.left_out)
+    of_plan = " of what is not marked" if forced else ""
+    costs = f"all that is left out costs {plan.promise:.2g}"
+    yield f"promise: {costs}, at most {promise:g}{of_plan} is allowed"
 
 
 def _row(each: "Decision") -> tuple[str, ...]:

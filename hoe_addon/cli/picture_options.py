@@ -154,11 +154,14 @@ def device_of(args: argparse.Namespace, more: Sequence[str] = ()) -> "DeviceSpec
         SpecError: The document, or a change, is not valid.
     """
     from ..model.document import find_device, load_device, picture_paths
+    from ..model.effects.holograms import holograms_of
+    from ..model.effects.overrides import read_overrides
     from ..model.reading import naming
     from ..shading.pictures import check_picture
 
     spec = load_device(args.device, [*assignments(args), *more])
     with naming(args.device):
+        read_overrides(spec.render.effects, holograms_of(spec))
         for field, path in picture_paths(spec, find_device(args.device).parent).items():
             check_picture(path, field)
     return spec
@@ -199,7 +202,14 @@ def open_device(args: argparse.Namespace, spec: "DeviceSpec") -> "DeviceScene":
 
     Raises:
         HoeError: This Blender cannot render it.
+        SpecError: Its effects cannot be followed.
     """
+    from ..model.effects import plan_effects
+    from ..model.reading import naming
+
+    with naming(args.device):
+        plan = plan_effects(spec)
+
     import bpy
 
     from ..blender.device import build_device
@@ -212,4 +222,4 @@ def open_device(args: argparse.Namespace, spec: "DeviceSpec") -> "DeviceScene":
     scene = bpy.context.scene
     if scene is None:
         raise HoeError("Blender has no scene to build in")
-    return build_device(scene, spec, find_device(args.device).parent)
+    return build_device(scene, spec, find_device(args.device).parent, plan)

@@ -4,18 +4,21 @@
 
 import argparse
 import json
+import os
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..files import writable_folder
 from ..model.methods import QUALITY_ERRORS
 from .interrupt import EXIT_INTERRUPTED, first_interrupt_asks
 from .picture_options import VIEW_FILES, add_picture_options, device_of, open_device
 from .progress import progress_bar
 
 if TYPE_CHECKING:
-    from ..blender.converge import Reached
+    from ..blender.convergence import Reached
     from ..blender.device import DeviceScene
     from ..model.quality import QualitySpec
 
@@ -29,7 +32,9 @@ root mean square error of the luminance of a pixel of view.exr, relative to the 
 the display's field of a light guide or over the lit picture of a scene. It is told by two
 independent halves of the samples; the render ends when its upper bound (95 % confidence) meets the
 request, when the time is over, or after an hour where no time is given. Ctrl-C ends it early and
-keeps the picture so far. The denoised view.png has an error of its own, which is told too."""
+keeps the picture so far. Set-up and the first samples are never cut short; a time that is passed
+by them is told. The denoised view.png has an error of its own, which is told too; below 16 samples
+per pixel it cannot be known, and view.png is not denoised."""
 
 _ENDS = {
     "reached": "reached",
@@ -67,23 +72,32 @@ def run(args: argparse.Namespace) -> int:
     Returns:
         Exit code.
     """
-    from ..files import writable_folder
     from ..model.quality import requested
 
     started = time.perf_counter()
     spec = device_of(args, _quality(args))
-    folder = writable_folder(args.out, VIEW_FILES)
+    _check_folder(args.out)
     device = open_device(args, spec)
     request = requested(spec.render.quality)
     if request is not None:
-        return _until(args, device, folder, request, started)
+        return _until(args, device, request, started)
 
     from ..blender.view import render_view, save_view
 
     with progress_bar("render") as progress:
         view = render_view(device, progress)
+    folder = writable_folder(args.out, VIEW_FILES)
     _tell(save_view(device, view, folder, clean=args.denoise), folder)
     return 0
+
+
+def _check_folder(path: str) -> None:
+    """Refuse a folder that cannot be written; one that is new is made only with its results."""
+    new = [each for each in (Path(path), *Path(path).parents) if not os.path.lexists(each)]
+    writable_folder(path, VIEW_FILES)
+    for each in new:
+        with suppress(OSError):  # somebody else has put something into it meanwhile
+            each.rmdir()
 
 
 def _quality(args: argparse.Namespace) -> list[str]:
@@ -105,12 +119,11 @@ def _quality(args: argparse.Namespace) -> list[str]:
 def _until(
     args: argparse.Namespace,
     device: "DeviceScene",
-    folder: Path,
     request: "QualitySpec",
     started: float,
 ) -> int:
     """Render until a request is met, write the results, and say what was reached."""
-    from ..blender.converge import converge
+    from ..blender.convergence import converge
     from ..blender.view import save_view
 
     with first_interrupt_asks() as asked, progress_bar("render") as progress:
@@ -122,9 +135,11 @@ def _until(
             started=started,
             stopped=asked.is_set,
         )
+    folder = writable_folder(args.out, VIEW_FILES)
     more = {"reached": reached.report()}
     _tell(save_view(device, view, folder, clean=reached.denoising_helps, more=more), folder)
     _tell_reached(reached)
+    _tell_passed(reached, time.perf_counter() - started)
     if reached.end == "stopped":
         print("hoe: stopped by the user; the picture so far is written", file=sys.stderr)
         return EXIT_INTERRUPTED
@@ -151,6 +166,20 @@ def _tell_reached(reached: "Reached") -> None:
         estimate = f"error {png.error:.3g}" if png.error > 0.0 else "error too small to tell"
         kept = "" if reached.denoising_helps else "; view.png is not denoised"
         print(f"denoised: {estimate}, at most {png.upper:.3g} {sure}{kept}")
+    elif reached.too_few:
+        print("denoised: too few samples to tell its error; view.png is not denoised")
+
+
+def _tell_passed(reached: "Reached", seconds: float) -> None:
+    """Say so where more time was taken than was asked for, and by what."""
+    wanted = reached.request.seconds
+    if wanted is None or seconds <= wanted:
+        return
+    if reached.set_up > wanted:
+        why = f"set-up alone, with the first samples, took {reached.set_up:.1f} s"
+    else:
+        why = f"{seconds:.1f} s with the files"
+    print(f"{wanted:g} s was passed: {why}")
 
 
 def _emitted(metrics: dict[str, Any]) -> str:

@@ -7,6 +7,7 @@ what is found. Pixels are independent of each other: Cycles draws the place of e
 the filter of its own pixel, so no sample serves two pixels.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -164,15 +165,16 @@ def worst_region(
 
     Returns:
         max |mean X - mean R| / mean R over the lit regions, and the standard error of that
-        region's. Of 48 regions without any bias the worst is some 2.5 standard errors off.
+        region's; NaN where no region is lit. Of 48 regions without any bias the worst is some 2.5
+        standard errors off.
     """
-    worst = Estimate(0.0, 0.0)
+    worst = Estimate(math.nan, math.nan)
     difference = relative_luminance(picture) - relative_luminance(reference.picture)
     noise = variance + reference.variance
     for region in lit_regions(reference):
         mean = float(np.mean(relative_luminance(reference.picture)[region]))
         bias = abs(float(np.mean(difference[region]))) / mean
-        if bias >= worst.value:
+        if not bias < worst.value:
             error = float(np.sqrt(np.mean(noise[region]) / np.count_nonzero(region))) / mean
             worst = Estimate(bias, error)
     return worst
@@ -190,7 +192,7 @@ def colour_difference(
 
     Returns:
         Mean of |u'v' - u'v'| over the regions, noise included, and its standard error from their
-        scatter; a region without a colour in one of the two is left out.
+        scatter; a region without a colour in one of the two is left out. NaN where none is left.
     """
     distances: list[float] = []
     for region in lit_regions(reference):
@@ -201,7 +203,7 @@ def colour_difference(
         distances.append(float(np.hypot(*(own - its))))
     known = np.array(distances)[np.isfinite(distances)]
     if not known.size:
-        return Estimate(0.0, 0.0)
+        return Estimate(math.nan, math.nan)
     scatter = float(np.std(known, ddof=1)) if known.size > 1 else 0.0
     return Estimate(float(known.mean()), scatter / known.size**0.5)
 

@@ -14,7 +14,7 @@ from ..core.units import m_to_mm, mm_to_m
 type Outline = Literal["rectangle", "ellipse"]
 OUTLINES = ("rectangle", "ellipse")
 
-ON_SURFACE_MM = 1e-9
+ON_SURFACE_MM = 5e-10
 """A point nearer to the surface than this counts as on it; far below any real position."""
 
 

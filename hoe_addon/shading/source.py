@@ -52,18 +52,17 @@ def specialised(name: str, definitions: Mapping[str, str], functions: str = "") 
     return ShaderSource(name, f"// Made from {name}.osl by hoe_addon.\n{head}{body}")
 
 
-def defining(source: ShaderSource, macro: str, value: str = "1") -> ShaderSource:
-    """The same text with one more definition on top.
+def defining(source: ShaderSource, macro: str) -> ShaderSource:
+    """The same text with one more macro defined on top.
 
     Args:
         source: A flat text.
-        macro: Macro name, with its parameter list if it has one.
-        value: Its replacement.
+        macro: Name of the macro; its value is 1.
 
     Returns:
         The flat text.
     """
-    return ShaderSource(source.name, f"#define {macro} {value}\n{source.text}")
+    return ShaderSource(source.name, f"#define {macro} 1\n{source.text}")
 
 
 def array(values: Iterable[float]) -> str:

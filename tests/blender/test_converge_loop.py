@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hoe_addon.blender import converge as loop
-from hoe_addon.blender.converge import converge
+from hoe_addon.blender import convergence as loop
+from hoe_addon.blender.convergence import converge
 from hoe_addon.blender.halves import SEQUENCE, Cost
 from hoe_addon.blender.render import COMBINED
 from hoe_addon.blender.view import DISPLAY_LAYER, View
@@ -126,8 +126,39 @@ def test_set_up_counts_as_time() -> None:
     past = time.perf_counter() - 100.0
     _, reached = _converge([Noise()], seconds=60.0, started=past)
     assert reached.end == "time"
-    assert reached.seconds >= 100.0
+    assert reached.seconds >= reached.set_up >= 100.0
+    assert reached.report()["set_up_seconds"] >= 100.0
     assert reached.samples == {"noise": 2 * loop.PILOT}
+
+
+def test_few_samples_do_not_judge_denoising(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A denoiser without any noise looks better than the truth where few samples judge it."""
+    monkeypatch.setattr(loop, "denoise", lambda pixels: np.full_like(pixels, pixels.mean()))
+    view, reached = converge(
+        _device(),
+        QualitySpec(seconds=60.0),
+        passes=[Noise()],
+        started=time.perf_counter() - 100.0,
+    )
+    assert reached.too_few
+    assert view.clean is reached.png is None
+    assert not reached.denoising_helps
+    assert reached.report()["png"] == {
+        "error": reached.picture.error,
+        "upper": reached.picture.upper,
+        "denoised": False,
+    }
+
+
+def test_enough_samples_judge_denoising(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(loop, "denoise", lambda pixels: np.full_like(pixels, pixels.mean()))
+    view, reached = converge(_device(), QualitySpec(error=1.0), passes=[Noise()])
+    assert reached.samples == {"noise": 16}
+    assert not reached.too_few
+    assert view.clean is not None
+    assert reached.png is not None
+    assert reached.report()["png"]["denoised"] is True
+    assert reached.report()["png"]["error"] == reached.png.error < reached.picture.error
 
 
 def test_a_stop_keeps_what_is_done() -> None:

@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 
 from hoe_addon.blender.accuracy_results import Judge
-from hoe_addon.blender.accuracy_shots import Shots, division_of, slope
+from hoe_addon.blender.accuracy_shots import Shots, division_of
 from hoe_addon.blender.accuracy_target import sharpness
 from hoe_addon.blender.device import build_device
 from hoe_addon.cli import main
@@ -32,14 +32,6 @@ ROOT = Path(__file__).resolve().parents[2]
 SIGMAS = 4.0
 CONTRAST_SLACK = 0.01
 """The pupil is filled a little unevenly, since the guide gives its light in steps."""
-
-
-def test_time_of_a_sample_leaves_out_what_all_renders_share() -> None:
-    samples = [4, 8, 16, 32]
-    assert slope(samples, [0.3 + 0.02 * n for n in samples]) == pytest.approx(0.02)
-    # A first render that came out too quick must not make samples dearer than they are.
-    assert slope(samples, [0.9 * 0.02 * 4, *(0.02 * n for n in samples[1:])]) < 0.021
-    assert slope([8], [0.4]) == pytest.approx(0.05)
 
 
 @pytest.mark.parametrize(
@@ -121,7 +113,9 @@ def test_numbers_hang_together(results: Path) -> None:
     )
     errors = [error for _, error in front]
     assert errors == sorted(errors, reverse=True)
-    for point in points:
+    timed = [run for run in report["runs"] if not run["too_short_to_time"]]
+    assert timed
+    for point in (point for run in timed for point in run["points"]):
         assert any(s <= point["seconds"] and e <= point["shown_error"] for s, e in front)
     with (results / "accuracy.csv").open(encoding="utf-8", newline="") as file:
         assert len(list(csv.DictReader(file))) == len(points)

@@ -60,7 +60,7 @@ def test_nothing_stays_behind() -> None:
     [
         ("--size=0x4", "--size: must be WxH, each from 4 to 4096 pixels, got '0x4'"),
         ("--size=64", "--size: must be WxH, each from 4 to 4096 pixels, got '64'"),
-        ("--only=glass", "--only: must be some of surfaces,rigorous,lookups, got 'glass'"),
+        ("--only=glass", "--only: must be some of surfaces,rigorous,lookups,effects, got 'glass'"),
         ("--seconds=nan", "--seconds: must be from 1 to 3600, got 'nan'"),
         ("--json=/none/x.json", "/none/x.json: cannot be written: No such file or directory"),
     ],

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from hoe_addon.blender import exr
-from hoe_addon.blender.converge import converge
+from hoe_addon.blender.convergence import converge
 from hoe_addon.blender.device import DeviceScene, build_device
 from hoe_addon.blender.halves import PassHalves
 from hoe_addon.blender.passes import whole

@@ -30,7 +30,10 @@ def _device(scene: bpy.types.Scene, *changes: str) -> DeviceScene:
     return build_device(scene, spec, find_device(PRESET).parent)
 
 
-@pytest.mark.parametrize("wavelength_nm", [460, 532, 630])
+@pytest.mark.parametrize(
+    "wavelength_nm",
+    [pytest.param(460, marks=pytest.mark.slow), 532, pytest.param(630, marks=pytest.mark.slow)],
+)
 def test_features_appear_at_the_angle_that_the_display_gives_them(
     clean_scene: bpy.types.Scene, wavelength_nm: float
 ) -> None:

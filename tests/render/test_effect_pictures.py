@@ -16,8 +16,9 @@ from hoe_addon.blender.bench_effects import (
     series,
     with_everything,
 )
+from hoe_addon.blender.diffracted import is_worth_it
 from hoe_addon.model.device import DeviceSpec
-from hoe_addon.model.document import device_from, find_device, load_device
+from hoe_addon.model.document import device_from, find_device, load_device, to_document
 from hoe_addon.model.effects import Effect, plan_effects
 from hoe_addon.resources import preset_paths
 
@@ -34,10 +35,6 @@ BLOCKS = 1.6
 """Root mean square over 48 squares of differences by their scatter, which is about 1 +- 0.12 where
 pictures are alike; squares with rare bright samples scatter more."""
 
-NOISE = 3.0
-"""The RMS error may exceed the promise by so many times what the noise would give."""
-
-
 TWICE = 2.0
 """Least ratio of variances: a sample costs no more with the plan than with everything."""
 
@@ -47,23 +44,21 @@ def pictures(spec: DeviceSpec, first_seed: int) -> Series:
     return series(spec, find_device("holographic_sight").parent, seeds, SAMPLES)
 
 
-def both(spec: DeviceSpec) -> tuple[Likeness, Series]:
+def both(spec: DeviceSpec) -> Likeness:
     """The picture with everything beside the planned one, with seeds of their own."""
-    planned = pictures(spec, 101)
-    return compare(pictures(with_everything(spec), 1), planned), planned
+    return compare(pictures(with_everything(spec), 1), pictures(spec, 101))
 
 
-def assert_alike(likeness: Likeness, promise: float) -> None:
+def assert_alike(likeness: Likeness) -> None:
+    """Within the noise; a promise below it is for the tests of the plan's own numbers."""
     assert abs(likeness.sigmas) < SIGMAS
     assert likeness.blocks < BLOCKS
     assert likeness.colours < BLOCKS
-    assert likeness.error < promise + NOISE * likeness.error_noise
 
 
 @pytest.mark.parametrize("name", preset_paths())
 def test_planned_preset_is_the_same_picture(name: str) -> None:
-    likeness, planned = both(load_device(name, ["render.size=[64,48]"]))
-    assert_alike(likeness, planned.plan.promise)
+    assert_alike(both(load_device(name, ["render.size=[64,48]"])))
 
 
 @pytest.mark.parametrize("name", ["holographic_sight", "hud_combiner"])
@@ -144,10 +139,31 @@ def test_change_of_the_relief_turns_its_effect_on(
     assert not plan_effects(with_relief(**plain)).is_on(effect, "grating")
     spec = with_relief(**needing)
     assert plan_effects(spec).is_on(effect, "grating")
-    likeness, planned = both(spec)
-    assert_alike(likeness, planned.plan.promise)
+    assert_alike(both(spec))
     wrong = compare(pictures(with_everything(spec), 1), pictures(changed(spec, f"-{effect}"), 101))
     assert abs(wrong.sigmas) > SIGMAS
+
+
+def test_mirror_in_a_lit_room_is_the_same_picture() -> None:
+    """Lamps of a room are unseen by the eye itself, and so they have to be in what it sees by order
+    0, straight or mirrored; only transmitted light goes without wavelengths."""
+    document = to_document(load_device("grating_rainbow", ["render.size=[64,48]"]))
+    grating = document["elements"][0]["hologram"]
+    grating["efficiency"]["table"] = {"T": {"0": 0.4, "1": 0.25}, "R": {"0": 0.1}}
+    grating["orders"] = [0, 1]
+    lamp = next(each for each in document["elements"] if each["name"] == "lamp")
+    blue = {
+        **lamp,
+        "name": "blue",
+        "shape": "sphere",
+        "size_mm": [200.0, 200.0],
+        "position_mm": [300.0, 0.0, -1500.0],
+        "spectrum": {"kind": "line", "centre_nm": 460.0, "fwhm_nm": 2.0},
+    }
+    document["elements"].append(blue)
+    spec = device_from(document)
+    assert is_worth_it(spec)
+    assert_alike(both(spec))
 
 
 def test_more_wavelengths_turn_dispersion_on() -> None:
@@ -155,8 +171,7 @@ def test_more_wavelengths_turn_dispersion_on() -> None:
     assert not plan_effects(with_relief(size_mm=small)).is_on(Effect.DISPERSION)
     spec = with_relief(size_mm=small, spectrum={"kind": "illuminant", "illuminant": "D65"})
     assert plan_effects(spec).is_on(Effect.DISPERSION)
-    likeness, planned = both(spec)
-    assert_alike(likeness, planned.plan.promise)
+    assert_alike(both(spec))
     one = pictures(changed(spec, "-dispersion"), 101)
     assert compare(pictures(with_everything(spec), 1), one).blocks > SIGMAS
 

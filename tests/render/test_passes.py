@@ -13,7 +13,13 @@ from numpy.typing import NDArray
 
 from hoe_addon.blender.device import DeviceScene, build_device
 from hoe_addon.blender.division import Division, divided
-from hoe_addon.blender.passes import FirstOrders, Pass, is_divisible, whole
+from hoe_addon.blender.passes import (
+    DISPLAY_LAYER,
+    FirstOrders,
+    Pass,
+    is_divisible,
+    whole,
+)
 from hoe_addon.blender.render import COMBINED, Region
 from hoe_addon.core.colour import LUMINANCE_WEIGHTS
 from hoe_addon.model.document import load_device
@@ -63,7 +69,7 @@ def test_sum_of_passes_is_the_picture(preset: str) -> None:
     seen = {
         name: np.array(
             [
-                _blocks(sum(each.render(seed, 0, 48)[COMBINED] for each in passes))
+                _blocks(sum(each.render(seed, 0, 32)[COMBINED] for each in passes))
                 for seed in range(8)
             ]
         )
@@ -93,7 +99,7 @@ def test_scene_is_whole_again_after_a_pass() -> None:
 
 
 def _pass_values(device: DeviceScene) -> list[float]:
-    names = {"first_orders", "first_gain", "sampling", "share"}
+    names = {"first_orders", "first_gain", "sampling"}
     return [
         socket.default_value
         for material in bpy.data.materials
@@ -102,6 +108,42 @@ def _pass_values(device: DeviceScene) -> list[float]:
         for socket in node.inputs
         if socket.identifier in names
     ]
+
+
+@pytest.mark.parametrize(
+    ("size", "region"),
+    [
+        ((100, 75), Region(59, 31, 83, 65)),
+        ((640, 480), Region(325, 118, 585, 228)),
+        ((108, 60), Region(0, 0, 108, 60)),
+    ],
+)
+def test_region_is_rendered_to_the_pixel(size: tuple[int, int], region: Region) -> None:
+    """Blender cuts products of single precision off; these sizes lost a row by it."""
+    device = _built("two_hologram_ar", "render.samples=1")
+    render = device.scene.render
+    render.resolution_x, render.resolution_y = size
+    found = Pass(device, "part", region=region).render(1, 0, 1)[COMBINED].any(axis=2)
+    rows, columns = np.flatnonzero(found.any(axis=1)), np.flatnonzero(found.any(axis=0))
+    assert (rows[0], rows[-1] + 1) == (region.top, region.bottom)
+    assert (columns[0], columns[-1] + 1) == (region.left, region.right)
+
+
+def test_pass_of_a_small_share_keeps_the_light_of_a_laser() -> None:
+    """Its weight in the filter is small already; Cycles drops what weighs less than 1e-5."""
+    lamp = '{"kind":"line","centre_nm":532,"fwhm_nm":0.01}'
+    device = _built(
+        "grating_rainbow", "render.size=[24,18]", f"elements.lamp.spectrum={lamp}", "room.kind=none"
+    )
+    seen = [
+        Pass(device, "part", FirstOrders.DIFFRACTED, 2, share).render(3, 0, 16)[DISPLAY_LAYER]
+        for share in (0.1, 1.0)
+    ]
+    # A lamp that is met straight on counts by its share, one by diffraction fully.
+    straight = Pass(device, "straight", FirstOrders.STRAIGHT, 2).render(3, 0, 16)[DISPLAY_LAYER]
+    diffracted = straight.sum(axis=2) == 0.0
+    np.testing.assert_allclose(seen[0][diffracted], seen[1][diffracted], rtol=1e-4, atol=1e-6)
+    assert seen[1][diffracted].max() > 0.0
 
 
 def test_published_and_small_pictures_stay_whole() -> None:
@@ -115,8 +157,8 @@ def test_published_and_small_pictures_stay_whole() -> None:
 
 @pytest.mark.slow
 def test_guided_is_several_times_better_than_published() -> None:
-    """Error squared times processor time, the pilot counted, over the display's field."""
-    size = "render.size=[192,144]"
+    """Error squared times processor time over the display's field: pilot and set-up counted."""
+    size = "render.size=[320,240]"
     efforts = {}
     for name, sets in (("published", PUBLISHED), ("guided", ())):
         device = _built("two_hologram_ar", size, *sets)
@@ -128,9 +170,9 @@ def test_guided_is_several_times_better_than_published() -> None:
     assert efforts["published"] > TIMES_BETTER * efforts["guided"], efforts
 
 
-def _effort(device: DeviceScene, division: Division, pilot: float, seeds: int = 4) -> float:
+def _effort(device: DeviceScene, division: Division, pilot: float, seeds: int = 2) -> float:
     started = time.process_time()
-    pictures = [division.render(seed, 48)[0][COMBINED] @ LUMINANCE_WEIGHTS for seed in range(seeds)]
+    pictures = [division.render(seed, 64)[0][COMBINED] @ LUMINANCE_WEIGHTS for seed in range(seeds)]
     seconds = pilot + (time.process_time() - started) / seeds
     height, width = pictures[0].shape
     inside = field_mask(device.guide_spec, width, height)

@@ -52,8 +52,27 @@ def test_changes(capsys: pytest.CaptureFixture[str], option: list[str]) -> None:
     lines = lines_of(capsys, "grating_rainbow", *option)
     (row,) = [line for line in lines if line.startswith("dispersion")]
     assert row.split()[2] == "off!"
-    everything = lines_of(capsys, "grating_rainbow", "--effects", "all")
-    assert everything[1] == "everything is simulated"
+    assert lines[-1].endswith("at most 0.001 of what is not marked is allowed")
+
+
+def test_everything_on_is_still_looked_at(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = lines_of(capsys, "grating_rainbow", "--effects", "all")
+    (row,) = [line for line in lines if line.startswith("dispersion")]
+    assert row.split()[2] == "on!"
+    assert float(row.split()[3]) > 0.1
+    assert lines[-2] == "everything is simulated"
+
+
+def test_dark_scene_has_an_empty_table(capsys: pytest.CaptureFixture[str]) -> None:
+    dark = ["--set", "room.kind=none", "--set", "elements.lamp.luminance_cd_m2=0"]
+    lines = lines_of(capsys, "grating_rainbow", *dark)
+    assert lines[1] == "everything is simulated"
+
+
+def test_what_stays_in_a_part_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    text = " ".join(" ".join(lines_of(capsys, "grating_rainbow", "--effects=-orders")).split())
+    assert "off!" in text
+    assert "kept, one order has to stay; cannot be left out" in text
 
 
 def test_fields_are_changed_first(capsys: pytest.CaptureFixture[str]) -> None:
@@ -86,6 +105,15 @@ def test_hologram_alone(capsys: pytest.CaptureFixture[str]) -> None:
         (["point_lens", "--promise", "2"], "--promise: must be at least 0 and below 1, got 2.0"),
         (["point_lens", "--promise", "nan"], "--promise: must be at least 0 and below 1, got nan"),
         ([str(LENS), "--set", "name=x"], "--set: must be left out for a hologram"),
+        (
+            ["diffractive_achromat", "--effects=-position"],
+            "render.effects: must not leave out what no simpler document can do without (the "
+            'pattern changes over the hologram and has no plain form), got "-position"',
+        ),
+        (
+            ["two_hologram_ar", "--effects=in_coupler:-orders"],
+            'kept, total reflection takes its share), got "in_coupler:-orders"',
+        ),
         (["no_such"], "no_such: is neither a preset"),
     ],
 )

@@ -11,6 +11,7 @@ from hoe_addon.model.device_walk import eyebox_luminance
 from hoe_addon.model.document import load_device
 from hoe_addon.model.effects import Decision, Effect, EffectPlan, plan_effects, planned
 from hoe_addon.model.effects.bodies import box, cylinder, ellipsoid, on_plane, rectangle
+from hoe_addon.model.effects.budget import Budget
 from hoe_addon.model.effects.by_hand import main_wavelength
 from hoe_addon.model.effects.holograms import holograms_of, with_holograms
 from hoe_addon.model.effects.light import components_of
@@ -92,6 +93,25 @@ def test_user_turns_effects_on_and_off() -> None:
     assert changed == replace(holograms_of(spec)["lens"].efficiency, angle_dependent=False)
 
 
+def test_free_things_go_beside_what_the_user_leaves_out() -> None:
+    """The user's choice costs all, and still takes nothing from the promise."""
+    spec = load_device("grating_rainbow")
+    assert not plan_effects(spec).is_on(Effect.BOUNCES)
+    plan = plan_effects(with_effects(spec, "-dispersion"))
+    assert plan.promise > 1.0
+    assert not plan.is_on(Effect.BOUNCES)
+
+
+def test_promise_of_the_plan_holds_beside_the_users_choice() -> None:
+    budget = Budget(1e-3, read_overrides(("-levels",), ("film",)))
+    assert budget.decide(Effect.LEVELS, "film", 0.5, "by hand")
+    assert budget.decide(Effect.HAZE, "film", 0.9e-3, "small")
+    assert not budget.decide(Effect.ANGLE, "film", 0.2e-3, "too much")
+    assert budget.decide(Effect.ABSORPTION, "film", 0.0, "free")
+    assert budget.used == pytest.approx(0.9e-3)
+    assert budget.total == pytest.approx(0.5 + 0.9e-3)
+
+
 def test_all_but_one() -> None:
     plan = plan_effects(with_effects(load_device("point_lens"), "all", "-angle"))
     assert [each.effect for each in plan.left_out if each.error_without] == [Effect.ANGLE]
@@ -131,6 +151,15 @@ def test_what_must_stay_is_refused() -> None:
         plan_effects(with_effects(spec, "-fresnel"))
     with pytest.raises(FieldError, match="must not leave out"):
         plan_effects(with_effects(spec, "achromat lens back:-position"))
+    with pytest.raises(FieldError, match="must not leave out"):
+        plan_effects(with_effects(spec, "-position"))
+
+
+def test_what_no_light_meets_is_not_refused() -> None:
+    behind = ["elements.lens.position_mm=[0,0,5000]"]
+    spec = load_device("point_lens", behind)
+    plan = plan_effects(with_effects(spec, "-orders"))
+    assert plan.is_on(Effect.ORDERS, "lens")
 
 
 def decided(effect: Effect, hologram: str = "", part: str = "") -> EffectPlan:

@@ -14,7 +14,8 @@ import pytest
 
 from hoe_addon.core.errors import CancelledError
 from hoe_addon.files import OutputError
-from hoe_addon.model import map_cache, maps
+from hoe_addon.model import map_cache
+from hoe_addon.model.contents import with_contents
 from hoe_addon.model.map_source import MapSource
 from hoe_addon.model.maps import MapRequest, map_file
 from hoe_addon.model.surface import PlaneSurface, SphereSurface
@@ -134,9 +135,9 @@ def test_the_content_of_a_file_counts_not_its_name(tmp_path):
     (tmp_path / "a.npy").write_bytes(b"1")
     (tmp_path / "b.npy").write_bytes(b"1")
     first, second = ({"terms": [{"file": str(tmp_path / name)}]} for name in ("a.npy", "b.npy"))
-    assert maps._with_contents(first) == maps._with_contents(second)
+    assert with_contents(first) == with_contents(second)
     (tmp_path / "b.npy").write_bytes(b"2")
-    assert maps._with_contents(first) != maps._with_contents(second)
+    assert with_contents(first) != with_contents(second)
 
 
 def test_stopped_work_leaves_no_file(folder):

@@ -35,6 +35,7 @@ class HologramPlan:
         self.given = self.simple = given
         self.hits = errors.hits_of(sight, name)
         self._shares_cost = 0.0
+        self._shares_forced = False
         self._nm = self._wavelengths()
         self._mean = self._mean_shares()
 
@@ -46,6 +47,7 @@ class HologramPlan:
         """
         if not self.hits:
             why = "no light on its way to the eye meets the hologram"
+            self.budget.unmet.add(self.name)
             self.budget.note(Effect.ORDERS, self.name, off=False, why=why, error=None)
             return self.given
         self.simple = decide_orders(self.sight, self.budget, self.name, self.given)
@@ -146,11 +148,21 @@ class HologramPlan:
         after = self._error(simple)
         alone = self._without(effect, self.given)
         error = after if alone is None else self._error(alone)
-        off = self.budget.allows(effect, self.name, error, after - self._shares_cost)
+        off = self.budget.allows(effect, self.name, error, self._added(error, after))
         why = f"{what}: without it the picture is off by {percent(error)}"
         self.budget.note(effect, self.name, off=off, why=why, error=error, cost=COSTS[effect])
         if off:
-            self.simple, self._shares_cost = simple, after
+            self._take(effect, simple, after)
+
+    def _added(self, alone: float, after: float) -> float:
+        """What leaving an effect out adds to the error of what is left out already."""
+        added = after - self._shares_cost
+        # Beside a large error of the user's choice a small one of the plan's would not show.
+        return max(added, alone) if self._shares_forced else added
+
+    def _take(self, effect: Effect, simple: HologramSpec, cost: float) -> None:
+        self.simple, self._shares_cost = simple, cost
+        self._shares_forced |= self.budget.overrides.of(effect, self.name) is False
 
     def _error(self, simple: HologramSpec) -> float:
         return self.sight.error(errors.share_change(self.sight, self.name, simple))
@@ -189,11 +201,11 @@ class HologramPlan:
         blocked = len(noted) < len(group) and False not in wanted
         off = False
         if error is not None and True not in wanted and not blocked:
-            off = self.budget.allows(main, self.name, error, error - self._shares_cost)
+            off = self.budget.allows(main, self.name, error, self._added(error, error))
         for effect in noted:
             self.budget.note(effect, self.name, off=off, why=why, error=error, cost=COSTS[effect])
         if off and simple is not None and error is not None:
-            self.simple, self._shares_cost = simple, error
+            self._take(main, simple, error)
 
     def _angle_decided(self, effect: Effect) -> bool:
         own = (effect, self.name)
@@ -240,8 +252,10 @@ class HologramPlan:
         if haze is None:
             self.budget.absent(Effect.HAZE, "the hologram does not scatter", self.name)
             return
-        error = self.sight.error(errors.haze_change(self.sight, self.name, self.given, haze))
         share = errors.largest_scatter(self.sight, self.name, self.given, haze)
+        error = self.sight.error(errors.haze_change(self.sight, self.name, self.given, haze))
+        # The lobe may reach an emitter that no ray looks at, in the place of the mean.
+        error = max(error, (self.sight.brightest - 1.0) * share)
         why = f"up to {percent(share)} of an order is scattered by {haze.width_deg:.3g} degrees"
         if self.budget.decide(Effect.HAZE, self.name, error, why, COSTS[Effect.HAZE]):
             found = without(self.simple, Effect.HAZE, self._mean, self._nm[1])

@@ -8,6 +8,9 @@ from ..field_error import FieldError
 from .names import WHOLE_SCENE, Decision, Effect
 from .overrides import Overrides
 
+_STAYS = "; cannot be left out"
+"""Said of what the user leaves out in vain."""
+
 
 @dataclass(eq=False)
 class Budget:
@@ -16,14 +19,23 @@ class Budget:
     Attributes:
         promise: Relative RMS error of luminance that all may cost together.
         overrides: What the user has decided.
-        used: Error of all that is left out so far.
+        used: Error of all that the plan has left out so far.
+        forced: Error of all that the user has left out so far; it takes nothing from the promise.
         decisions: The decisions.
+        unmet: Names of the holograms that no light meets: nothing is decided about them.
     """
 
     promise: float
     overrides: Overrides
     used: float = 0.0
+    forced: float = 0.0
     decisions: list[Decision] = field(default_factory=list[Decision])
+    unmet: set[str] = field(default_factory=set[str])
+
+    @property
+    def total(self) -> float:
+        """Error of all that is left out so far, whoever has decided it."""
+        return self.used + self.forced
 
     def allows(
         self, effect: Effect, hologram: str, error: float | None, more: float | None = None
@@ -38,20 +50,18 @@ class Budget:
 
         Returns:
             True if it is left out.
-
-        Raises:
-            FieldError: The user leaves out what can not be left out.
         """
         wanted = self.overrides.of(effect, hologram)
         added = error if more is None else more
-        if error is None or added is None:
-            if wanted is False and (effect, hologram) in self.overrides.chosen:
-                rule = "must not leave out what no simpler document can do without"
-                raise FieldError("render.effects", rule, f"-{effect}")
+        if error is None or added is None or wanted is True:
             return False
-        if wanted is True or (wanted is None and self.used + added > self.promise):
+        added = max(added, 0.0)
+        if wanted is False:
+            self.forced += added
+            return True
+        if added > 0.0 and self.used + added > self.promise:
             return False
-        self.used += max(added, 0.0)
+        self.used += added
         return True
 
     def note(
@@ -76,7 +86,10 @@ class Budget:
             cost: Predicted time with it over the time without it, at equal error.
             part: Which order it is about.
         """
-        decided = self.overrides.of(effect, hologram) is not None and error is not None
+        wanted = self.overrides.of(effect, hologram)
+        decided = wanted is not None and error is not None
+        if wanted is False and not off:
+            why += _STAYS
         self.decisions.append(Decision(effect, hologram, not off, why, error, cost, decided, part))
 
     def decide(
@@ -100,3 +113,23 @@ class Budget:
     def absent(self, effect: Effect, why: str, hologram: str = WHOLE_SCENE) -> None:
         """Write down that there is no such effect, so nothing is lost without it."""
         self.decisions.append(Decision(effect, hologram, False, why, 0.0, present=False))
+
+    def check_followed(self) -> None:
+        """Refuse what the user leaves out where all of it had to stay.
+
+        Raises:
+            FieldError: Nothing of an effect could be left out.
+        """
+        for (effect, name), on in self.overrides.chosen.items():
+            own = [each for each in self.decisions if self._is_about(each, effect, name)]
+            if not on and own and all(each.on for each in own):
+                why = own[0].why.removesuffix(_STAYS)
+                rule = f"must not leave out what no simpler document can do without ({why})"
+                text = f"{name}:-{effect}" if name else f"-{effect}"
+                raise FieldError("render.effects", rule, text)
+
+    def _is_about(self, decision: Decision, effect: Effect, name: str) -> bool:
+        """Whether what the user leaves out, of one hologram or of all, rules a decision."""
+        own = decision.effect == effect and name in (decision.hologram, WHOLE_SCENE)
+        there = decision.present and decision.hologram not in self.unmet
+        return own and there and self.overrides.of(effect, decision.hologram) is False

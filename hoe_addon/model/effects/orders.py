@@ -38,7 +38,7 @@ def decide_orders(sight: Sight, budget: Budget, name: str, given: HologramSpec) 
         effect = _effect(group)
         last = place == len(by_error) - 1
         fixed = last or _is_needed(given, group)
-        why = _why(sight, name, group, error)
+        why = _why(sight, name, group, error) + _why_kept(given, group, last=last)
         part = " ".join(named(branch) for branch in group)
         if fixed:
             budget.note(effect, name, off=False, why=why, error=None, cost=COSTS[effect], part=part)
@@ -71,6 +71,12 @@ def _is_needed(spec: HologramSpec, group: Sequence[Branch]) -> bool:
     """Whether others depend on the order: where it is totally reflected, or nothing is recorded."""
     zero = TRANSMITTED_ZERO in group or REFLECTED_ZERO in group
     return zero and spec.efficiency.total_internal_reflection
+
+
+def _why_kept(spec: HologramSpec, group: tuple[Branch, ...], *, last: bool) -> str:
+    if _is_needed(spec, group):
+        return "; kept, total reflection takes its share"
+    return "; kept, one order has to stay" if last else ""
 
 
 def _error(sight: Sight, name: str, spec: HologramSpec, group: tuple[Branch, ...]) -> float:

@@ -5,6 +5,7 @@
 import numpy as np
 
 from ...core.arrays import BoolArray, FloatArray
+from ...core.colour import LUMINANCE_WEIGHTS
 from ...core.units import m_to_mm, mm_to_m
 from ..device import DeviceSpec, LightGuideSpec
 from ..device_surfaces import HOUSING_MARGIN_MM
@@ -93,12 +94,12 @@ def _thing(element: ElementSpec, turn: FloatArray, origin: FloatArray) -> Body:
             return Body(element.name, turn, origin, flat, reflectance=element.reflectance)
         case BlockElement():
             make = shapes.box if element.shape == "box" else shapes.cylinder
-            grey = float(np.dot(element.color, (0.2126, 0.7152, 0.0722)))
+            grey = float(np.dot(element.color, LUMINANCE_WEIGHTS))
             return Body(
                 element.name, turn, origin, make(element.size_mm), flat=False, reflectance=grey
             )
         case HolderElement():
-            grey = float(np.dot(element.color, (0.2126, 0.7152, 0.0722)))
+            grey = float(np.dot(element.color, LUMINANCE_WEIGHTS))
             flat = shapes.on_plane(_frame(element))
             return Body(element.name, turn, origin, flat, reflectance=grey)
         case _:

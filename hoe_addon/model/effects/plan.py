@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The plan of a document, and the document that is left when the plan is followed."""
 
+import json
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import msgspec
 import numpy as np
 
+from ..contents import digest, with_contents
 from ..device import DeviceSpec
 from ..efficiency import ConstantSpec, RcwaSpec, ShareTable
 from ..hologram import HologramSpec
@@ -17,7 +19,7 @@ from .about_hologram import HologramPlan
 from .bodies import Body
 from .budget import Budget
 from .holograms import holograms_of, with_holograms
-from .light import components_of, equal_light
+from .light import Component, components_of, equal_light
 from .names import EffectPlan
 from .overrides import Overrides, read_overrides
 from .places import bodies_of, hologram_body
@@ -30,7 +32,13 @@ _KEPT = 16
 """Plans that are kept, since a document is often planned more than once."""
 
 
-def plan_effects(spec: DeviceSpec, promise: float = PROMISE) -> EffectPlan:
+_LEAST_SHARE = 1e-3
+"""Share of an emitter's light by which a ray that meets it is told from one that sees its glow."""
+
+
+def plan_effects(
+    spec: DeviceSpec, promise: float = PROMISE, *, in_full: bool = False
+) -> EffectPlan:
     """Decide which effects a document calls for.
 
     Rays from the eye are walked backward through all holograms, and an effect is left out only if
@@ -39,6 +47,8 @@ def plan_effects(spec: DeviceSpec, promise: float = PROMISE) -> EffectPlan:
     Args:
         spec: The document; the changes in ``render.effects`` are followed.
         promise: Relative RMS error of luminance that all that is left out may cost together.
+        in_full: Whether the effects are looked at even where the document turns everything on;
+            otherwise no decision is needed then, and none is given.
 
     Returns:
         The plan.
@@ -46,15 +56,33 @@ def plan_effects(spec: DeviceSpec, promise: float = PROMISE) -> EffectPlan:
     Raises:
         FieldError: ``render.effects`` names what there is not, or leaves out what must stay.
     """
-    return _plan(msgspec.json.encode(spec), type(spec), promise)
+    document = _Document(spec, msgspec.json.encode(spec), _files_of(spec))
+    return _plan(document, promise, in_full)
+
+
+@dataclass(frozen=True)
+class _Document:
+    """A document that is equal to another of the same text, with the same data in its files."""
+
+    spec: DeviceSpec = field(compare=False)
+    text: bytes
+    files: str
+
+
+def _files_of(spec: DeviceSpec) -> str:
+    """Hash of the document with what is in its files: the same names may hold other data now."""
+    try:
+        return digest(json.dumps(with_contents(msgspec.to_builtins(spec))).encode())
+    except OSError:
+        return ""  # whoever reads the file says what is wrong
 
 
 @lru_cache(maxsize=_KEPT)
-def _plan(document: bytes, kind: type[DeviceSpec], promise: float) -> EffectPlan:
-    spec = msgspec.json.decode(document, type=kind)
+def _plan(document: _Document, promise: float, in_full: bool) -> EffectPlan:
+    spec = document.spec
     holograms = holograms_of(spec)
     overrides = read_overrides(spec.render.effects, holograms)
-    if overrides.everything and not overrides.chosen:
+    if overrides.everything and not overrides.chosen and not in_full:
         return EffectPlan((), 0.0)
     budget = Budget(promise, overrides)
     components = components_of(spec)
@@ -63,6 +91,9 @@ def _plan(document: bytes, kind: type[DeviceSpec], promise: float) -> EffectPlan
     if not components:
         return EffectPlan((), 0.0)
     sight = sight_of(bodies, components, roots, pixel_angle)
+    if _misses_light(sight, len(roots.start)):
+        # Light that no ray has met may still be seen, and nobody knows what it needs.
+        return EffectPlan((), 0.0)
     changes: dict[str, str | float] = {}
     single = about_scene.decide_dispersion(sight, budget, spec, bodies, roots)
     if single is not None:
@@ -76,7 +107,27 @@ def _plan(document: bytes, kind: type[DeviceSpec], promise: float) -> EffectPlan
         changes["eye.pupil_diameter_mm"] = min(by_hand.NO_PUPIL_MM, spec.eye.pupil_diameter_mm)
     about_scene.decide_fresnel(sight, budget, bodies)
     simple = _decide_holograms(sight, budget, holograms)
-    return EffectPlan(tuple(budget.decisions), budget.used, changes, simple)
+    budget.check_followed()
+    return EffectPlan(tuple(budget.decisions), budget.total, changes, simple)
+
+
+def _misses_light(sight: Sight, rays: int) -> bool:
+    """Tell whether there is light of which no ray has met an emitter, nor one of the same spectrum.
+
+    A ray that meets one brings the mean to its luminance times the ray's share over all rays; the
+    glow of matte bodies in its light is far below that.
+    """
+    met: set[str | tuple[float, float]] = set()
+    for component, mean in zip(sight.components, sight.means.tolist(), strict=True):
+        if mean > _LEAST_SHARE * component.luminance / rays:
+            met |= {component.emitter, _spectrum(component)}
+    return any(
+        met.isdisjoint((component.emitter, _spectrum(component))) for component in sight.components
+    )
+
+
+def _spectrum(component: Component) -> tuple[float, float]:
+    return round(component.mean_nm, 1), round(component.width_nm, 4)
 
 
 def _decide_holograms(
@@ -113,7 +164,8 @@ def plan_hologram(
     roots, pixel_angle = half_space_roots(spec)
     sight = sight_of(bodies, (equal_light(),), roots, pixel_angle)
     simple = _decide_holograms(sight, budget, {name: spec})
-    return EffectPlan(tuple(budget.decisions), budget.used, {}, simple)
+    budget.check_followed()
+    return EffectPlan(tuple(budget.decisions), budget.total, {}, simple)
 
 
 def _walkable(bodies: tuple[Body, ...]) -> tuple[Body, ...]:

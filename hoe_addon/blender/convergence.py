@@ -54,7 +54,7 @@ _LEAST_DIVIDED_S = 20.0
 """In less time the pilot that divides a picture would take too much of it."""
 
 _LEAST = 8
-"""Samples of each half before an error counts as reached: rare light must have had its chance."""
+"""Samples of each half before an error counts as reached, or denoising is judged: rare light."""
 
 _MARGIN = 0.97
 """Aim a little below the request, so that one batch is enough."""
@@ -114,9 +114,10 @@ def converge(
             stopped or (lambda: False),
         )
         end = work.run(clean=clean)
-    view, png = work.view(clean=clean)
+    view, png = work.view(clean=clean and work.enough)
     device.scene.cycles.samples = max(view.samples.values())
-    return view, Reached(request, work.error(), png, time.perf_counter() - began, view.samples, end)
+    seconds, few = time.perf_counter() - began, clean and not work.enough
+    return view, Reached(request, work.error(), png, seconds, view.samples, end, work.set_up, few)
 
 
 def _terms(device: DeviceScene, request: QualitySpec) -> Sequence[RenderPass]:
@@ -137,6 +138,12 @@ class _Work:
     stopped: Stopped
     reserve: float = _WRITING_S
     told: float = 0.0
+    set_up: float = 0.0
+
+    @property
+    def enough(self) -> bool:
+        """Whether rare light had its chance in every pass."""
+        return min(each.samples for each in self.passes) >= _LEAST
 
     def run(self, *, clean: bool) -> End:
         """Grow the halves until there is a reason to end, and tell it."""
@@ -144,7 +151,8 @@ class _Work:
         for each in self.passes:
             self._check()
             each.grow(pilot)
-        if clean and self.request.seconds is not None:
+        self.set_up = time.perf_counter() - self.began
+        if clean and self.request.seconds is not None and self._left() > 0.0:
             self.reserve += self._denoising_seconds()
         while True:
             error = self.error()
@@ -204,16 +212,14 @@ class _Work:
 
     def _end(self, error: SamplingError) -> End | None:
         """Why the render ends now; None if it goes on."""
-        wanted = self.request.error
-        least, most = (pick(each.samples for each in self.passes) for pick in (min, max))
         if self.stopped():
             return "stopped"
-        if wanted is not None and least >= _LEAST:
-            if error.upper <= wanted:
+        if self.request.error is not None and self.enough:
+            if error.upper <= self.request.error:
                 return "reached"
             if not math.isfinite(error.error):
                 return "black"
-        if most >= MOST_SAMPLES:
+        if max(each.samples for each in self.passes) >= MOST_SAMPLES:
             return "samples"
         one = sum(2.0 * each.cost.seconds(1) for each in self.passes)
         return "time" if self._left() < one else None
