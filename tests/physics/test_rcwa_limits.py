@@ -176,6 +176,7 @@ def test_equal_layers_and_layers_without_contrast(rng: np.random.Generator) -> N
     np.testing.assert_allclose(same.transmitted, plain.transmitted, atol=ROUNDING)
 
 
+@pytest.mark.slow
 def test_thin_limit_is_the_kinoform_formula() -> None:
     """A staircase of 4 levels, its orders over all that is transmitted, as the period grows."""
     alpha, levels, index = 0.9, 4, 1.5
@@ -226,6 +227,7 @@ def test_azimuth_and_normal_incidence_are_no_exceptions() -> None:
     np.testing.assert_allclose(total(grooves), 1.0, atol=ENERGY)
 
 
+@pytest.mark.slow
 def test_metal_across_the_walls_converges_with_few_harmonics() -> None:
     """Gold: with the inverse rule the error falls quickly, and both polarisations agree."""
     light = PlaneWaves.of(1.0, (0.5, 0.0), 1.0, [(0.22 + 6.71j) ** 2, 1.0], from_front=True)

@@ -95,6 +95,7 @@ def sent(spec: HologramSpec, walked: Incidence, ways: Any) -> Any:
     return shares / np.maximum(shares.sum(axis=-1, keepdims=True), 1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backward", [False, True])
 @pytest.mark.parametrize("name", WIDE_MODELS)
 def test_the_stated_error_is_kept_at_other_points(

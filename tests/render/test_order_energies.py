@@ -93,8 +93,14 @@ FORMLESS = {"rcwa", "table"}
 SLOW = {"rcwa"}
 """Models whose tables take their time."""
 
+
+def _is_slow(model: str, lookup: str) -> bool:
+    """One model is enough for the quick tests to try both look-ups."""
+    return model in SLOW or (lookup != "formula" and model != "kinoform")
+
+
 CASES = [
-    pytest.param(model, lookup, marks=[pytest.mark.slow] if model in SLOW else [])
+    pytest.param(model, lookup, marks=[pytest.mark.slow] if _is_slow(model, lookup) else [])
     for model in MODELS
     for lookup in LOOKUPS
     if lookup != "formula" or model not in FORMLESS

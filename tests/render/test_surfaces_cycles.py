@@ -161,12 +161,14 @@ def test_formula_surfaces(name: str, rng: np.random.Generator) -> None:
     compare(spec, random_rays(spec, rng, 1000))
 
 
+@pytest.mark.slow
 def test_mesh_with_given_normals(rng: np.random.Generator) -> None:
     """Cycles and numpy have the same facets: they agree to float32, not only to 1e-4."""
     spec = hologram(sphere_mesh(24))
     compare(spec, random_rays(spec, rng, 1000))
 
 
+@pytest.mark.slow
 def test_mesh_of_a_sphere_is_as_good_as_it_says(rng: np.random.Generator) -> None:
     """Cycles on the refined mesh against the sphere itself, for incidence up to 45 degrees."""
     sphere = hologram(SURFACES["sphere"])

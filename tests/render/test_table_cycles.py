@@ -60,7 +60,7 @@ def use(monkeypatch: pytest.MonkeyPatch) -> Callable[[EfficiencyTable], None]:
 
 
 @pytest.mark.parametrize("dimensions", COUNTS)
-@pytest.mark.parametrize("beyond", ["clamp", "zero"])
+@pytest.mark.parametrize("beyond", ["clamp", pytest.param("zero", marks=pytest.mark.slow)])
 def test_interpolation_is_that_of_numpy(
     use: Callable[[EfficiencyTable], None],
     rng: np.random.Generator,
