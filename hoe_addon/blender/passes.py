@@ -141,12 +141,18 @@ def _set_up(this: Pass) -> Iterator[None]:
     found = [
         (socket, socket.default_value) for name in values for socket in _sockets(this.device, name)
     ]
+    render = this.device.scene.render
+    persistent = render.use_persistent_data
     try:
+        if this.orders != FirstOrders.ALL:
+            # Cycles would go on with the sample numbers of the pass before.
+            render.use_persistent_data = False
         for socket, _ in found:
             if socket.default_value != values[socket.identifier]:
                 socket.default_value = values[socket.identifier]
         yield
     finally:
+        render.use_persistent_data = persistent
         for socket, kept in found:
             if socket.default_value != kept:
                 socket.default_value = kept
