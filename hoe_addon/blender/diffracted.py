@@ -5,7 +5,7 @@
 With the eye's response in front of the camera, every path has a wavelength, and all that is seen
 has the noise of it. But order 0 of a thin hologram in one medium, with a constant share, goes alike
 at all wavelengths. So here the response stands at the light sources, and counts for the paths that
-have gone through a portal alone; for order 0 the hologram is transparent, and what comes by it has
+have gone through a portal alone; order 0 is a refraction by 1, and what comes by it has
 its colour at once. The mean of the response is 1, and its mean with the emission of a display is
 the display's colour, so both pictures have the same mean.
 """
@@ -105,6 +105,12 @@ def count_after_diffraction(
         _respond(_white_tree(light), "ShaderNodeEmission", spectral)
     if scene.world is not None and scene.world.node_tree is not None:
         _respond(scene.world.node_tree, "ShaderNodeBackground", spectral)
+    settings = scene.cycles
+    # Order 0 counts as a bounce now: as many as before stay free of Russian roulette.
+    settings.min_light_bounces = 1
+    settings.max_bounces = max(settings.max_bounces, spec.render.max_bounces)
+    settings.transmission_bounces = max(settings.transmission_bounces, spec.render.max_bounces)
+    settings.caustics_refractive = True
 
 
 def _holograms(spec: SceneSpec) -> Mapping[str, HologramSpec]:

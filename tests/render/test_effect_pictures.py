@@ -128,10 +128,9 @@ def changed(spec: DeviceSpec, *effects: str) -> DeviceSpec:
 @pytest.mark.parametrize(
     ("effect", "plain", "needing"),
     [
-        (Effect.LEVELS, {"levels": 256}, {"levels": 4}),
         (Effect.ANGLE, {}, {"angle_deg": 50.0}),
     ],
-    ids=["rougher relief", "tilt"],
+    ids=["tilt"],
 )
 def test_change_of_the_relief_turns_its_effect_on(
     effect: Effect, plain: dict[str, Any], needing: dict[str, Any]
