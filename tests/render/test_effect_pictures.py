@@ -177,7 +177,7 @@ def test_more_wavelengths_turn_dispersion_on() -> None:
 
 @pytest.mark.parametrize(
     ("name", "left_out"),
-    [("holographic_sight", "window:levels"), ("laser_grating", "dispersion")],
+    [("holographic_sight", "bounces"), ("laser_grating", "dispersion")],
 )
 def test_bench_tells_what_the_plan_gains(name: str, left_out: str) -> None:
     (speed,) = measure_effects((name,))
