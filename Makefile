@@ -4,7 +4,7 @@
 PYTHON := .venv/bin/python
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-slow lint schema lock clean
+.PHONY: help setup demo extension test test-slow lint schema lock clean
 
 help:  ## Show the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -14,6 +14,9 @@ setup:  ## Make .venv from the lock and check Blender's libraries (each target d
 
 demo: setup  ## Render the two-hologram AR device and its eyebox to out/demo
 	$(PYTHON) -m hoe_addon demo --out out/demo
+
+extension: setup  ## Build the extension for Blender as dist/hoe_addon-VERSION.zip and validate it
+	$(PYTHON) .ci/extension.py
 
 test: setup  ## Run the tests that are quick
 	$(PYTHON) -m pytest -m "not slow"
@@ -36,5 +39,5 @@ lock:  ## Renew .ci/requirements.lock from pyproject.toml (needs uv)
 		--output-file .ci/requirements.lock
 
 clean:  ## Remove .venv, results and caches
-	rm -rf .venv out dist .pytest_cache .ruff_cache
+	rm -rf .venv out dist wheels .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

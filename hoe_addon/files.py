@@ -11,6 +11,9 @@ from pathlib import Path
 
 from .core.errors import HoeError
 
+VIEW_FILES = ("view.exr", "view.png", "view.blend", "metrics.json")
+"""What a view writes into its folder."""
+
 _unfinished: set[Path] = set()
 """Files and folders that only last while something is being made."""
 

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+pytest_plugins = ("tests.installed",)
+
 SEED = 20260101
 
 

@@ -14,7 +14,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1]))
 
-from hoe_addon.blender.trace import trace_cycles  # noqa: E402
+from hoe_addon.blender.pictures.trace import trace_cycles  # noqa: E402
 from hoe_addon.cli.claims import Row, row  # noqa: E402
 from hoe_addon.cli.example import Example  # noqa: E402
 from hoe_addon.model.document import load_device  # noqa: E402

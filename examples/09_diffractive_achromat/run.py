@@ -81,7 +81,7 @@ def kinoform_abbe_number(engine: Any) -> float:
     """Abbe number of the kinoform alone, in air, by rays parallel to its axis.
 
     Args:
-        engine: ``model.evaluate.trace`` or ``blender.trace.trace_cycles``.
+        engine: ``model.evaluate.trace`` or ``blender.api.trace_cycles``.
 
     Returns:
         phi_d / (phi_F - phi_C).

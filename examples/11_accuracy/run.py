@@ -21,10 +21,10 @@ sys.path.insert(0, str(HERE.parents[1]))
 
 import bpy  # noqa: E402
 
-from hoe_addon.blender.accuracy_results import relative_noise  # noqa: E402
-from hoe_addon.blender.accuracy_shots import Shots, division_of  # noqa: E402
-from hoe_addon.blender.accuracy_target import CYCLES_PER_DEGREE, sharpness  # noqa: E402
-from hoe_addon.blender.device import DeviceScene, build_device  # noqa: E402
+from hoe_addon.blender.accuracy.results import relative_noise  # noqa: E402
+from hoe_addon.blender.accuracy.shots import Shots, division_of  # noqa: E402
+from hoe_addon.blender.accuracy.target import CYCLES_PER_DEGREE, sharpness  # noqa: E402
+from hoe_addon.blender.build.device import DeviceScene, build_device  # noqa: E402
 from hoe_addon.cli.claims import Row, row  # noqa: E402
 from hoe_addon.cli.example import Example  # noqa: E402
 from hoe_addon.core.picture_error import reference_of  # noqa: E402

@@ -6,6 +6,10 @@
   ``to_document``, ``HologramSpec``, ``LightGuideSpec``, ``SceneSpec``.
 - Scenes: ``build_device`` and its ``DeviceScene``; ``set_up`` for Cycles; ``has_osl``,
   ``require_osl``; ``spectral_scene`` and its ``SpectralScene``, with ``by_significance``.
+- Adding, as Add > Hologram does, after ``hoe_addon.register()``: ``add_scene``, ``add_device``
+  with its ``AddedDevice``, ``add_hologram``, ``hologram_on_faces``, ``add_slab``,
+  ``add_ideal_lens``, ``add_glass``, ``make_glass``, ``add_display``, ``add_lamp``, ``give_eye``;
+  ``scale_to_millimetres``. What a scene holds: ``device_of``, ``document_of``.
 - Elements: ``hologram_element``, ``surface_of`` a mesh of one's own; ``add_guide``,
   ``add_light_engine``, ``add_eye``, ``set_pupil``, ``patch_frame``.
 - Materials: ``hologram_material``, ``dielectric_material``, ``thin_lens_material``,
@@ -21,30 +25,36 @@
 
 from ..core.wavelength_sampling import by_significance
 from ..model.device import LightGuideSpec
-from ..model.document import (
-    device_from,
-    hologram_from,
-    load_device,
-    load_hologram,
-    to_document,
-)
+from ..model.document import device_from, hologram_from, load_device, load_hologram, to_document
 from ..model.effects import plan_effects, planned
 from ..model.hologram import HologramSpec
 from ..model.quality import QualitySpec
 from ..model.scene import SceneSpec
 from ..shading.hologram import Frame
-from .convergence import converge
-from .denoiser import denoise
-from .device import DeviceScene, build_device
-from .division import divided
-from .element import hologram_element, surface_of
-from .eye import add_eye, set_pupil
-from .eyebox import survey
-from .following import Followed
-from .guide import add_guide, patch_frame
-from .light_engine import add_light_engine
-from .maps import prepare_map, update_map
-from .materials import (
+from .add.bodies import add_glass, add_ideal_lens, add_slab, make_glass
+from .add.emitters import add_display, add_lamp
+from .add.eye import give_eye
+from .add.hologram import add_hologram, hologram_on_faces
+from .add.presets import AddedDevice, add_device, add_scene
+from .build.device import DeviceScene, build_device
+from .build.element import hologram_element, surface_of
+from .build.eye import add_eye, set_pupil
+from .build.guide import add_guide, patch_frame
+from .build.light_engine import add_light_engine
+from .document.held import device_of, document_of
+from .pictures.convergence import converge
+from .pictures.denoiser import denoise
+from .pictures.division import divided
+from .pictures.eyebox import survey
+from .pictures.reached import Reached
+from .pictures.render import render_layers
+from .pictures.render_settings import set_up
+from .pictures.trace import trace_cycles
+from .pictures.view import render_view, save_view
+from .props.sync import read_frame, read_spec, refresh, refresh_changed, write_spec
+from .shaders.following import Followed
+from .shaders.maps import prepare_map, update_map
+from .shaders.materials import (
     absorber_material,
     dielectric_material,
     display_material,
@@ -53,16 +63,12 @@ from .materials import (
     picture,
     thin_lens_material,
 )
-from .osl import has_osl, require_osl
-from .props.sync import read_frame, read_spec, refresh, refresh_changed, write_spec
-from .reached import Reached
-from .render import render_layers
-from .render_settings import set_up
-from .spectral import SpectralScene, spectral_scene
-from .trace import trace_cycles
-from .view import render_view, save_view
+from .shaders.osl import has_osl, require_osl
+from .shaders.spectral import SpectralScene, spectral_scene
+from .units import scale_to_millimetres
 
 __all__ = [
+    "AddedDevice",
     "DeviceScene",
     "Followed",
     "Frame",
@@ -73,24 +79,37 @@ __all__ = [
     "SceneSpec",
     "SpectralScene",
     "absorber_material",
+    "add_device",
+    "add_display",
     "add_eye",
+    "add_glass",
     "add_guide",
+    "add_hologram",
+    "add_ideal_lens",
+    "add_lamp",
     "add_light_engine",
+    "add_scene",
+    "add_slab",
     "build_device",
     "by_significance",
     "converge",
     "denoise",
     "device_from",
+    "device_of",
     "dielectric_material",
     "display_material",
     "divided",
+    "document_of",
     "filter_material",
+    "give_eye",
     "has_osl",
     "hologram_element",
     "hologram_from",
     "hologram_material",
+    "hologram_on_faces",
     "load_device",
     "load_hologram",
+    "make_glass",
     "patch_frame",
     "picture",
     "plan_effects",
@@ -104,6 +123,7 @@ __all__ = [
     "render_view",
     "require_osl",
     "save_view",
+    "scale_to_millimetres",
     "set_pupil",
     "set_up",
     "spectral_scene",

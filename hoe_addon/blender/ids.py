@@ -124,6 +124,106 @@ class Side(Choice):
     REFLECTED = "R", 1, "Reflected", "The order goes back"
 
 
+class Role(Choice):
+    """What an object is in a device or a scene."""
+
+    NONE = "none", 0, "Other", "Not part of a device"
+    ROOT = "root", 1, "Device", "The frame of a whole device; what hangs on it moves with it"
+    HOLOGRAM = "hologram", 2, "Hologram", "A hologram on a surface"
+    LENS = "lens", 3, "Lens", "A round lens of glass, with a hologram on a face or without one"
+    DISPLAY = "display", 4, "Display", "A picture that gives light"
+    LAMP = "lamp", 5, "Lamp", "A lamp that is equally bright all over"
+    CARD = "card", 6, "Card", "A matte panel with a printed picture"
+    BLOCK = "block", 7, "Block", "A matte body"
+    HOLDER = "holder", 8, "Holder", "A frame around an opening"
+    GUIDE = "guide", 9, "Light Guide", "A plate that carries light to the eye"
+    ENGINE = "engine", 10, "Light Engine", "Display and lens that send light into a guide"
+    PART = "part", 11, "Part", "A piece of another element, such as a face of a lens"
+    EYE = "eye", 12, "Eye", "The camera with a pupil that looks"
+    FILTER = "filter", 13, "Spectral Filter", "The eye's response, in front of the camera"
+    IDEAL_LENS = "ideal_lens", 14, "Ideal Lens", "A thin lens without any error"
+    SLAB = "slab", 15, "Light-Guide Slab", "A clear plate without a device around it"
+    GLASS = "glass", 16, "Dispersive Glass", "A body whose index depends on the wavelength"
+
+
+class DeviceKind(Choice):
+    """What the document of a scene describes."""
+
+    NONE = "none", 0, "None", "No device"
+    LIGHT_GUIDE = "light_guide", 1, "Light Guide", "A light guide with a light engine and an eye"
+    SCENE = "scene", 2, "Scene", "Holograms, displays and lamps, and an eye"
+
+
+class PictureKind(Choice):
+    """What a display or a card shows."""
+
+    CHART = "chart", 0, "Test Chart", "Circles, a grid and patches of colour"
+    WHITE = "white", 1, "White", "Plain white"
+    DOTS = "dots", 2, "Dots", "A grid of dots"
+    BARS = "bars", 3, "Bars", "Black and white bars with letters"
+    RETICLE = "reticle", 4, "Aiming Mark", "A red circle with a dot"
+    SPEED = "speed", 5, "Speed", "A green speedometer"
+    IMAGE = "image", 6, "Image", "An image of this file"
+
+
+class RoomKind(Choice):
+    """What stands behind and around a device."""
+
+    NONE = "none", 0, "None", "Nothing of the add-on; whatever else the scene holds stays"
+    LIVING_ROOM = "living_room", 1, "Living Room", "A furnished room with a window"
+    DESK = "desk", 2, "Desk", "The top of a desk"
+    RANGE = "range", 3, "Open Land", "Open land with targets"
+    ROAD = "road", 4, "Road", "A road in daylight"
+    WALL = "wall", 5, "Wall", "A plain wall"
+
+
+class White(Choice):
+    """White points."""
+
+    D65 = "D65", 0, "D65 (Daylight)", "Average daylight, 6500 K"
+    E = "E", 1, "E (Equal Energy)", "The same power at every wavelength"
+    A = "A", 2, "A (Tungsten)", "A tungsten lamp, 2856 K"
+
+
+class Mode(Choice):
+    """Which wavelengths a picture is made of."""
+
+    SPECTRAL = "spectral", 0, "Spectral", "Every path draws a wavelength of its own; true colours"
+    PREVIEW = "preview", 1, "One Wavelength", "All paths have the wavelength of the preview"
+
+
+class Goal(Choice):
+    """When a render ends."""
+
+    SAMPLES = "samples", 0, "Samples", "After the samples that are set for Cycles"
+    ERROR = "error", 1, "Error", "When the stated error is reached"
+    SECONDS = "seconds", 2, "Time", "When the time is over; the error reached is told"
+    QUALITY = "quality", 3, "Quality", "When the error of a quality by name is reached"
+
+
+class Quality(Choice):
+    """Qualities by name; ``model.methods`` has the error of each."""
+
+    DRAFT = "draft", 0, "Draft", "A first look"
+    PREVIEW = "preview", 1, "Preview", "Good enough to judge the composition"
+    FINAL = "final", 2, "Final", "For a picture that is shown"
+    REFERENCE = "reference", 3, "Reference", "To measure in"
+
+
+class Method(Choice):
+    """How paths are drawn; all but ``lines`` give the same mean."""
+
+    GUIDED = "guided", 0, "Guided", "Toward the orders and wavelengths that the picture needs"
+    PUBLISHED = "published", 1, "As Published", "Uniform wavelengths, orders by significance"
+
+
+class Face(Choice):
+    """Faces of a light guide."""
+
+    EYE = "eye", 0, "Eye Side", "The face toward the eye"
+    WORLD = "world", 1, "World Side", "The face away from the eye"
+
+
 def catalogue_items() -> list[EnumItem]:
     """The media of the catalogue as a list for an enum property.
 

@@ -2,7 +2,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The modules that register something with Blender, each after those that it depends on."""
 
-from .props import efficiency, hologram, map_files, material, medium, recording, sync, targets
+from . import events
+from .document import live
+from .props import (
+    device,
+    display,
+    efficiency,
+    element,
+    eye,
+    guide,
+    hologram,
+    map_files,
+    material,
+    medium,
+    overlay,
+    recording,
+    rendering,
+    sync,
+    targets,
+)
 from .registration import Part
 
 PARTS: tuple[Part, ...] = (
@@ -11,7 +29,16 @@ PARTS: tuple[Part, ...] = (
     efficiency,
     hologram,
     material,
+    display,
+    element,
+    rendering,
+    overlay,
+    eye,
+    guide,
+    device,
     sync,
+    live,
     targets,
     map_files,
+    events,
 )

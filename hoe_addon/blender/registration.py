@@ -4,11 +4,19 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack
+from inspect import get_annotations
 from typing import Protocol
 
 import bpy
 
-type BlenderClass = type[bpy.types.PropertyGroup]
+type BlenderClass = type[
+    bpy.types.PropertyGroup
+    | bpy.types.Operator
+    | bpy.types.Panel
+    | bpy.types.Menu
+    | bpy.types.UIList
+    | bpy.types.AddonPreferences
+]
 type Registrar = Callable[[], None]
 
 
@@ -61,6 +69,19 @@ def class_registrars(classes: Sequence[BlenderClass]) -> tuple[Registrar, Regist
     return lambda: register_all(parts), lambda: unregister_all(parts)
 
 
+def _allow_override(group: type[bpy.types.PropertyGroup]) -> None:
+    """Let properties be changed where their datablock overrides one of a linked file.
+
+    One that says by itself what it allows is left alone.
+    """
+    fields = (get_annotations(each) for each in group.__mro__)
+    for declared in (declared for each in fields for declared in each.values()):
+        wanted = {"LIBRARY_OVERRIDABLE"}
+        if declared.function is bpy.props.CollectionProperty:
+            wanted.add("USE_INSERTION")
+        declared.keywords.setdefault("override", wanted)
+
+
 class _ClassPart:
     """One class."""
 
@@ -68,6 +89,8 @@ class _ClassPart:
         self._class = blender_class
 
     def register(self) -> None:
+        if issubclass(self._class, bpy.types.PropertyGroup):
+            _allow_override(self._class)
         bpy.utils.register_class(self._class)
 
     def unregister(self) -> None:

@@ -13,8 +13,11 @@ from .picture_options import add_effects_option, device_of, open_device, size
 from .progress import progress_bar
 
 if TYPE_CHECKING:
-    from ..blender.accuracy_results import Accuracy
+    from pathlib import Path
+
+    from ..blender.accuracy.results import Accuracy
     from ..model.device import DeviceSpec
+    from .accuracy_report import Report
 
 _DESCRIPTION = """\
 Measure error against time for each setting by itself, starting from the device as it is, and for
@@ -86,27 +89,22 @@ def run(args: argparse.Namespace) -> int:
     Returns:
         Exit code.
     """
-    from ..files import writable_folder, write_text
-    from .accuracy_page import page
-    from .accuracy_plot import require_plots, write_plot
-    from .accuracy_report import report_of, table, written_csv, written_json
+    from ..files import writable_folder
+    from .accuracy_plot import require_plots
+    from .accuracy_report import table
 
     require_plots()
-    spec = _small(args, device_of(args))
+    spec = _sized(args, device_of(args))
     folder = writable_folder(args.out, FILES)
     found = _measured(args, spec)
-    report = report_of(spec, found, args.budget)
-    write_text(folder / "accuracy.json", written_json(report))
-    write_text(folder / "accuracy.csv", written_csv(report))
-    write_plot(folder / "accuracy.png", report)
-    write_text(folder / "accuracy.html", page(report, found, folder / "accuracy.png"))
+    report = write_accuracy(spec, found, args.budget, folder)
     print("\n".join(table(report)))
     print(f"{folder}: {', '.join(FILES)}")
     return EXIT_INTERRUPTED if found.stopped else 0
 
 
 def _measured(args: argparse.Namespace, spec: "DeviceSpec") -> "Accuracy":
-    from ..blender.accuracy_runs import measure_accuracy
+    from ..blender.accuracy.runs import measure_accuracy
 
     with first_interrupt_asks() as asked, progress_bar("accuracy") as progress:
         return measure_accuracy(
@@ -114,19 +112,70 @@ def _measured(args: argparse.Namespace, spec: "DeviceSpec") -> "Accuracy":
         )
 
 
-def _small(args: argparse.Namespace, spec: "DeviceSpec") -> "DeviceSpec":
-    """The device with a picture of few pixels, unless a size is asked for."""
+def write_accuracy(
+    spec: "DeviceSpec", found: "Accuracy", budget: float, folder: "Path", *, plot: bool = True
+) -> "Report":
+    """Write all files of a measurement.
+
+    Args:
+        spec: The device that was measured.
+        found: What was found.
+        budget: Seconds that were asked for.
+        folder: Where the files go.
+        plot: Whether the diagram is drawn, which needs matplotlib.
+
+    Returns:
+        What accuracy.json holds.
+
+    Raises:
+        OutputError: A file cannot be written.
+    """
+    from ..files import write_text
+    from .accuracy_page import page
+    from .accuracy_plot import write_plot
+    from .accuracy_report import report_of, written_csv, written_json
+
+    report = report_of(spec, found, budget)
+    diagram = folder / "accuracy.png" if plot else None
+    write_text(folder / "accuracy.json", written_json(report))
+    write_text(folder / "accuracy.csv", written_csv(report))
+    if diagram is not None:
+        write_plot(diagram, report)
+    write_text(folder / "accuracy.html", page(report, found, diagram))
+    return report
+
+
+def small(spec: "DeviceSpec") -> "DeviceSpec":
+    """The device with a picture of few pixels, so that there is time for many samples."""
     from msgspec import structs
 
+    width, height = spec.render.size
+    scale = min(1.0, math.sqrt(_PIXELS / (width * height)))
+    sides = tuple(max(1, round(side * scale)) for side in (width, height))
+    return structs.replace(spec, render=structs.replace(spec.render, size=sides))
+
+
+def _sized(args: argparse.Namespace, spec: "DeviceSpec") -> "DeviceSpec":
+    """The device with a picture of few pixels, unless a size is asked for."""
     if args.size is None:
-        width, height = spec.render.size
-        scale = min(1.0, math.sqrt(_PIXELS / (width * height)))
-        sides = tuple(max(1, round(side * scale)) for side in (width, height))
-        spec = structs.replace(spec, render=structs.replace(spec.render, size=sides))
+        spec = small(spec)
+    least_size(spec, "--size")
+    return spec
+
+
+def least_size(spec: "DeviceSpec", option: str = "size") -> None:
+    """Refuse pictures that are too small to be measured in.
+
+    Args:
+        spec: The device with the size of the pictures.
+        option: What gave the size, for the message.
+
+    Raises:
+        HoeError: A side is too short.
+    """
     if min(spec.render.size) < _LEAST_SIDE:
         shape = "x".join(map(str, spec.render.size))
-        raise HoeError(f"--size: both sides must be at least {_LEAST_SIDE} pixels, got {shape}")
-    return spec
+        raise HoeError(f"{option}: both sides must be at least {_LEAST_SIDE} pixels, got {shape}")
 
 
 def _budget(text: str) -> float:

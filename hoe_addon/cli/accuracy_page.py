@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from .accuracy_report import Report, name_of, time_of
 
 if TYPE_CHECKING:
-    from ..blender.accuracy_results import Accuracy
+    from ..blender.accuracy.results import Accuracy
 
 _STYLE = """\
 body { font: 15px/1.4 system-ui, sans-serif; margin: 2em auto; max-width: 84em; padding: 0 1em;
@@ -40,18 +40,18 @@ _HEADS = (
 )
 
 
-def page(report: Report, found: "Accuracy", plot: Path) -> list[str]:
+def page(report: Report, found: "Accuracy", plot: Path | None) -> list[str]:
     """Make the page.
 
     Args:
         report: What `accuracy_report.report_of` gave.
         found: The results with their pictures.
-        plot: The diagram, a PNG file.
+        plot: The diagram, a PNG file; None where there is none.
 
     Returns:
         Its text in pieces; every text of the document is escaped.
     """
-    from ..blender.accuracy_pictures import png_of
+    from ..blender.accuracy.pictures import png_of
 
     title = escape(f"What accuracy costs: {report['device']}")
     reference = report["reference"]
@@ -66,7 +66,7 @@ def page(report: Report, found: "Accuracy", plot: Path) -> list[str]:
         f"<title>{title}</title>\n<style>\n{_STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n",
         f"<p>{escape(_summary(report))}</p>\n",
         f"<p>{escape(_about_reference(reference))}</p>\n",
-        f'<p><img alt="error against time" src="{_data(plot.read_bytes())}"></p>\n',
+        *_diagram(plot),
         '<h2>Pictures</h2>\n<div class="pictures">\n',
         *pictures,
         "</div>\n<h2>Numbers</h2>\n",
@@ -83,6 +83,12 @@ def page(report: Report, found: "Accuracy", plot: Path) -> list[str]:
         ),
         "</ul>\n</body>\n</html>\n",
     ]
+
+
+def _diagram(plot: Path | None) -> list[str]:
+    if plot is None:
+        return []
+    return [f'<p><img alt="error against time" src="{_data(plot.read_bytes())}"></p>\n']
 
 
 def _summary(report: Report) -> str:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from ..core.picture_error import pareto_front
 
 if TYPE_CHECKING:
-    from ..blender.accuracy_results import Accuracy, Point, Run
+    from ..blender.accuracy.results import Accuracy, Point, Run
     from ..core.picture_error import Estimate
     from ..model.device import DeviceSpec
 

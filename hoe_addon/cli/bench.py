@@ -15,9 +15,9 @@ from .bench_rcwa import RcwaSpeed, measure_rcwa, rcwa_lines
 from .parser import parse_number
 
 if TYPE_CHECKING:
-    from ..blender.bench import Benchmark
-    from ..blender.bench_effects import EffectSpeed
-    from ..blender.bench_tables import LookupSpeed
+    from ..blender.bench.effects import EffectSpeed
+    from ..blender.bench.surfaces import Benchmark
+    from ..blender.bench.tables import LookupSpeed
 
 _DESCRIPTION = """\
 Four measurements, of which --only picks some; effects is left out unless it is picked.
@@ -99,7 +99,7 @@ def run(args: argparse.Namespace) -> int:
 def _measured(args: argparse.Namespace) -> "_Results":
     surfaces = rigorous = lookups = effects = None
     if "surfaces" in args.only:
-        from ..blender.bench import run_benchmark
+        from ..blender.bench.surfaces import run_benchmark
 
         with _bar("surfaces") as show:
             surfaces = run_benchmark(args.seconds, args.size, show)
@@ -107,12 +107,12 @@ def _measured(args: argparse.Namespace) -> "_Results":
         with _bar("rigorous") as show:
             rigorous = measure_rcwa(show)
     if "lookups" in args.only:
-        from ..blender.bench_tables import compare_lookups
+        from ..blender.bench.tables import compare_lookups
 
         with _bar("lookups") as show:
             lookups = compare_lookups(progress=show)
     if "effects" in args.only:
-        from ..blender.bench_effects import measure_effects
+        from ..blender.bench.effects import measure_effects
 
         with _bar("effects") as show:
             effects = measure_effects(progress=show)

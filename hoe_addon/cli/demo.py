@@ -6,8 +6,9 @@ import argparse
 import time
 from typing import Any
 
+from ..files import VIEW_FILES
 from .eyebox import EYEBOX_FILES, summary, view_files, write_survey
-from .picture_options import VIEW_FILES, light_guide_of, open_device
+from .picture_options import light_guide_of, open_device
 from .progress import progress_bar
 
 _DESCRIPTION = """\
@@ -55,9 +56,9 @@ def run(args: argparse.Namespace) -> int:
 
     from msgspec import structs
 
-    from ..blender.eye import set_pupil
-    from ..blender.render_settings import set_picture
-    from ..blender.view import render_view, save_view
+    from ..blender.build.eye import set_pupil
+    from ..blender.pictures.render_settings import set_picture
+    from ..blender.pictures.view import render_view, save_view
 
     with progress_bar("view") as progress:
         view = render_view(device, progress)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ..blender.device import DeviceScene
+    from ..blender.build.device import DeviceScene
 
 _SMALL_PUPIL_MM = 0.5
 """Sharp pictures, whose spots have their middle in the direction of one ray."""
@@ -83,7 +83,7 @@ def seen_spot(
 
 
 def _seen(preset: str, changes: Sequence[str]) -> "NDArray[np.float64]":
-    from ..blender.scene_measure import seen_direction
+    from ..blender.build.measure import seen_direction
 
     quiet = ("room.kind=none", f"eye.pupil_diameter_mm={_SMALL_PUPIL_MM}")
     return seen_direction(opened(preset, (*quiet, *changes)))

@@ -4,6 +4,7 @@
 
 import argparse
 import json
+import math
 from typing import TYPE_CHECKING, Any
 
 from .picture_options import add_picture_options, light_guide_of, open_device, size
@@ -12,7 +13,8 @@ from .progress import progress_bar
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from ..blender.device import DeviceScene
+    from ..blender.build.device import DeviceScene
+    from ..blender.pictures.eyebox import PupilResult
     from ..model.device import LightGuideSpec
 
 _DESCRIPTION = """\
@@ -100,37 +102,49 @@ def write_survey(
         views: Where the single views go.
         field_samples: Samples per cell of the luminance measurement.
         clean: Whether PNG files are denoised.
-        progress: Told the finished share.
+        progress: Told the finished share; where it raises CancelledError, the positions that are
+            done are kept.
 
     Returns:
-        What eyebox.json holds.
+        What eyebox.json holds; ``positions`` has fewer than the grid where it was stopped.
+
+    Raises:
+        CancelledError: It was stopped before a position was done.
     """
-    from ..blender import exr
-    from ..blender.eyebox import survey
-    from ..blender.view import clean_picture, save_png
+    from ..blender.pictures import exr
+    from ..blender.pictures.eyebox import survey
+    from ..blender.pictures.view import clean_picture, save_png
+    from ..core.errors import CancelledError
     from ..files import write_text
     from .contact_sheet import write_contact_sheet
 
     found: list[dict[str, Any]] = []
-    for result in survey(device, field_samples, progress):
-        name = result.position.name
-        exr.write(views / f"{name}.exr", result.view.picture)
-        shown = clean_picture(result.view) if clean else result.view.picture
-        save_png(device.scene, shown, views / f"{name}.png")
-        found.append(
-            {
-                "name": name,
-                "column": result.position.column,
-                "row": result.position.row,
-                "pupil_mm": list(result.position.centre_mm),
-                **result.field.to_dict(),
-                "seconds": round(result.view.seconds, 3),
-            }
-        )
+    try:
+        for result in survey(device, field_samples, progress):
+            name = result.position.name
+            exr.write(views / f"{name}.exr", result.view.picture)
+            shown = clean_picture(result.view) if clean else result.view.picture
+            save_png(device.scene, shown, views / f"{name}.png")
+            found.append(_position(result))
+    except CancelledError:
+        if not found:
+            raise
     report = _report(device, found, field_samples)
     write_text(folder / "eyebox.json", (json.dumps(report, indent=2), "\n"))
     write_contact_sheet(folder / "eyebox.png", views, report)
     return report
+
+
+def _position(result: "PupilResult") -> dict[str, Any]:
+    """What eyebox.json says of one position."""
+    return {
+        "name": result.position.name,
+        "column": result.position.column,
+        "row": result.position.row,
+        "pupil_mm": list(result.position.centre_mm),
+        **result.field.to_dict(),
+        "seconds": round(result.view.seconds, 3),
+    }
 
 
 def view_files(spec: "LightGuideSpec") -> list[str]:
@@ -167,6 +181,7 @@ def _report(
         "display_luminance_cd_m2": spec.display.luminance_cd_m2,
         "measured": "white display, no other light, whole field",
         "field_samples": field_samples,
+        "stopped_by_user": len(positions) < math.prod(spec.eyebox.grid),
         "settings": to_document(spec.render),
         "eyebox_uniformity": min(means) / max(means) if max(means) > 0.0 else 0.0,
         "positions": positions,

@@ -10,8 +10,8 @@ from .claims import Claim
 from .example import provenance
 
 if TYPE_CHECKING:
-    from ..blender.device import DeviceScene
-    from ..blender.eyebox import FieldLuminance
+    from ..blender.build.device import DeviceScene
+    from ..blender.pictures.eyebox import FieldLuminance
 
 _RELATIVE_TOLERANCE = 0.05
 _STANDARD_ERRORS = 3.0
@@ -99,7 +99,7 @@ def seen_luminances(
     Returns:
         For each pupil the claim, in cd/m2, and all that was measured.
     """
-    from ..blender.eyebox import fields_at
+    from ..blender.pictures.eyebox import fields_at
     from ..model.eyebox import PupilPosition
 
     rows, tolerance = expected["pupils"], expected["tolerance"]

@@ -11,12 +11,8 @@ from ..core.errors import HoeError
 from ..model.methods import METHODS
 
 if TYPE_CHECKING:
-    from ..blender.device import DeviceScene
+    from ..blender.build.device import DeviceScene
     from ..model.device import DeviceSpec, LightGuideSpec
-
-
-VIEW_FILES = ("view.exr", "view.png", "view.blend", "metrics.json")
-"""What a view writes into its folder."""
 
 
 def add_picture_options(parser: argparse.ArgumentParser) -> None:
@@ -212,7 +208,7 @@ def open_device(args: argparse.Namespace, spec: "DeviceSpec") -> "DeviceScene":
 
     import bpy
 
-    from ..blender.device import build_device
+    from ..blender.build.device import build_device
     from ..blender.quiet import forget_removed_engines
     from ..model.document import find_device
 

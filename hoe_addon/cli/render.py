@@ -7,20 +7,19 @@ import json
 import os
 import sys
 import time
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..files import writable_folder
+from ..files import VIEW_FILES, writable_folder
 from ..model.methods import QUALITY_ERRORS
 from .interrupt import EXIT_INTERRUPTED, first_interrupt_asks
-from .picture_options import VIEW_FILES, add_picture_options, device_of, open_device
+from .picture_options import add_picture_options, device_of, open_device
 from .progress import progress_bar
 
 if TYPE_CHECKING:
-    from ..blender.convergence import Reached
-    from ..blender.device import DeviceScene
-    from ..model.quality import QualitySpec
+    from ..blender.pictures.asked_view import AskedView
+    from ..blender.pictures.reached import Reached
 
 _DESCRIPTION = """\
 Render what the eye sees through a device. Writes view.exr (32-bit float, scene-linear Rec. 709),
@@ -35,14 +34,6 @@ request, when the time is over, or after an hour where no time is given. Ctrl-C 
 keeps the picture so far. Set-up and the first samples are never cut short; a time that is passed
 by them is told. The denoised view.png has an error of its own, which is told too; below 16 samples
 per pixel it cannot be known, and view.png is not denoised."""
-
-_ENDS = {
-    "reached": "reached",
-    "time": "the time is over",
-    "samples": "the most samples are taken",
-    "stopped": "stopped by the user",
-    "black": "the picture is black",
-}
 
 
 def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
@@ -79,15 +70,28 @@ def run(args: argparse.Namespace) -> int:
     _check_folder(args.out)
     device = open_device(args, spec)
     request = requested(spec.render.quality)
-    if request is not None:
-        return _until(args, device, request, started)
 
-    from ..blender.view import render_view, save_view
+    from ..blender.pictures.asked_view import keep_asked_view
 
-    with progress_bar("render") as progress:
-        view = render_view(device, progress)
-    folder = writable_folder(args.out, VIEW_FILES)
-    _tell(save_view(device, view, folder, clean=args.denoise), folder)
+    # A number of samples is all or nothing: there Ctrl-C ends the process at once.
+    asks = first_interrupt_asks() if request is not None else nullcontext()
+    with asks as asked, progress_bar("render") as progress:
+        made = keep_asked_view(
+            device,
+            request,
+            args.out,
+            clean=args.denoise,
+            started=started,
+            progress=progress,
+            stopped=None if asked is None else asked.is_set,
+        )
+    _tell(made)
+    if made.reached is not None:
+        _tell_reached(made.reached)
+        _tell_passed(made.reached, time.perf_counter() - started)
+    if made.stopped:
+        print("hoe: stopped by the user; the picture so far is written", file=sys.stderr)
+        return EXIT_INTERRUPTED
     return 0
 
 
@@ -116,49 +120,22 @@ def _quality(args: argparse.Namespace) -> list[str]:
     return [f"render.quality={json.dumps(value)}"]
 
 
-def _until(
-    args: argparse.Namespace,
-    device: "DeviceScene",
-    request: "QualitySpec",
-    started: float,
-) -> int:
-    """Render until a request is met, write the results, and say what was reached."""
-    from ..blender.convergence import converge
-    from ..blender.view import save_view
-
-    with first_interrupt_asks() as asked, progress_bar("render") as progress:
-        view, reached = converge(
-            device,
-            request,
-            progress,
-            clean=args.denoise,
-            started=started,
-            stopped=asked.is_set,
-        )
-    folder = writable_folder(args.out, VIEW_FILES)
-    more = {"reached": reached.report()}
-    _tell(save_view(device, view, folder, clean=reached.denoising_helps, more=more), folder)
-    _tell_reached(reached)
-    _tell_passed(reached, time.perf_counter() - started)
-    if reached.end == "stopped":
-        print("hoe: stopped by the user; the picture so far is written", file=sys.stderr)
-        return EXIT_INTERRUPTED
-    return 0
-
-
-def _tell(metrics: dict[str, Any], folder: Path) -> None:
-    print(f"{folder}: view.exr, view.png, view.blend, metrics.json")
+def _tell(made: "AskedView") -> None:
+    metrics = made.metrics
+    print(f"{made.folder}: view.exr, view.png, view.blend, metrics.json")
     print(f"picture: mean {metrics['picture']['mean_cd_m2']:.1f} cd/m2; {_emitted(metrics)}")
     print(f"{metrics['samples']} samples per pixel in {metrics['seconds']:.1f} s")
 
 
 def _tell_reached(reached: "Reached") -> None:
     """Say which errors were reached, with which confidence, and why it ended there."""
+    from ..blender.pictures.reached import END_WORDS
+
     wanted, found = reached.request.error, reached.picture
     sure = f"with {found.confidence:.0%} confidence"
     line = f"view.exr: error {found.error:.3g}, at most {found.upper:.3g} {sure}"
     if wanted is not None and reached.end != "reached":
-        line += f"; {wanted:g} was not reached: {_ENDS[reached.end]}"
+        line += f"; {wanted:g} was not reached: {END_WORDS[reached.end]}"
     print(line)
     if reached.png is not None:
         png = reached.png

@@ -76,8 +76,8 @@ def _engine(name: str) -> "Callable[[HologramSpec, RayTable], TraceResult]":
 
 
 def _trace_cycles(spec: "HologramSpec", rays: "RayTable") -> "TraceResult":
+    from ..blender.pictures.trace import trace_cycles
     from ..blender.quiet import forget_removed_engines
-    from ..blender.trace import trace_cycles
     from .progress import progress_bar
 
     forget_removed_engines()

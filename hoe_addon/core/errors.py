@@ -4,7 +4,32 @@
 
 
 class HoeError(Exception):
-    """Base of all errors whose message is meant for the user."""
+    """Base of all errors whose message is meant for the user: one printable line."""
+
+    def __init__(self, message: str = "") -> None:
+        """Keep the message, which may quote what a stranger wrote.
+
+        Args:
+            message: What is wrong, the value, and what to do.
+        """
+        super().__init__(one_line(message))
+
+
+def one_line(text: str) -> str:
+    """Make any text one line that a terminal and a panel show as it is.
+
+    Args:
+        text: The text.
+
+    Returns:
+        The text; white space is one space and what cannot be printed is escaped, unless all of it
+        can be printed.
+    """
+    if text.isprintable():
+        return text
+    return "".join(
+        letter if letter.isprintable() else ascii(letter)[1:-1] for letter in " ".join(text.split())
+    )
 
 
 class SpecError(HoeError):
@@ -25,6 +50,10 @@ class RenderError(HoeError):
 
 class CancelledError(HoeError):
     """The user stopped the work."""
+
+
+class NotMadeError(HoeError):
+    """A table or a map has to be made first, which takes long."""
 
 
 class ConvergenceError(SpecError):

@@ -32,6 +32,7 @@ from .surface import PlaneSurface
 
 _THICKEST_MM = 1000.0
 _EDGE_SLACK_MM = 1e-9
+_MAX_HOLOGRAMS = 200
 """Patches may touch each other and the rim; this allows for the rounding of their corners."""
 
 
@@ -198,6 +199,9 @@ class LightGuideSpec(
             field_kinds.instance(self, name, kind)
         if not self.holograms:
             raise FieldError("holograms", "must hold at least one hologram", self.holograms)
+        if len(self.holograms) > _MAX_HOLOGRAMS:
+            rule = f"must hold at most {_MAX_HOLOGRAMS} holograms"
+            raise FieldError("holograms", rule, len(self.holograms))
         if self.eye.position_mm[2] <= -self.guide.relief_mm:
             rule = f"must lie before the guide's face at z = {-self.guide.relief_mm:g}"
             raise FieldError("eye.position_mm[2]", rule, self.eye.position_mm[2])

@@ -83,6 +83,9 @@ def _current(document: object) -> Document:
     while isinstance(version, int) and version in _MIGRATIONS:
         current = _MIGRATIONS[version](current)
         version = current["schema"]
+    if isinstance(version, int) and version > SCHEMA:
+        rule = f"must be at most {SCHEMA}, the newest that this add-on knows (update it)"
+        raise FieldError("schema", rule, version)
     if isinstance(version, bool) or version != SCHEMA:
         raise FieldError("schema", f"must be {SCHEMA}, the version of this program", version)
     return {**current, "schema": SCHEMA}
@@ -115,6 +118,8 @@ def with_placed_files(document: object, folder: Path) -> object:
         The same data with absolute paths.
     """
     if isinstance(document, list):
+        if not {dict, list} & set(map(type, cast("list[object]", document))):
+            return cast("list[object]", document)
         return [with_placed_files(item, folder) for item in cast("list[object]", document)]
     if not isinstance(document, dict):
         return document

@@ -3,11 +3,14 @@
 """The error of a field that breaks a rule, and how paths and values are written in it."""
 
 import json
+from collections.abc import Iterable, Iterator
+from typing import cast
 
-from ..core.errors import SpecError
+from ..core.errors import SpecError, one_line
 from .plain import plain
 
 _SHOWN = 60
+_LONGEST_PATH = 300
 
 
 def show(value: object) -> str:
@@ -19,11 +22,54 @@ def show(value: object) -> str:
     Returns:
         The value as JSON (or its ``repr``), cut to a readable length.
     """
+    text = ""
+    for piece in _pieces(value):
+        text += piece
+        if len(text) > _SHOWN:
+            return text[: _SHOWN - 3] + "..."
+    return text
+
+
+def _pieces(value: object) -> Iterator[str]:
+    """Write a value piece by piece: it may be millions of numbers, of which few are shown."""
+    if isinstance(value, dict):
+        yield "{"
+        for place, (name, item) in enumerate(cast("dict[object, object]", value).items()):
+            yield f"{', ' if place else ''}{json.dumps(str(name))}: "
+            yield from _pieces(item)
+        yield "}"
+    elif isinstance(value, list | tuple):
+        yield "["
+        for place, item in enumerate(cast("Iterable[object]", value)):
+            yield ", " if place else ""
+            yield from _pieces(item)
+        yield "]"
+    else:
+        yield _single(value)
+
+
+def _single(value: object) -> str:
     try:
-        text = json.dumps(plain(value), ensure_ascii=True)
-    except (TypeError, ValueError, RecursionError):
-        text = " ".join(repr(value).split())
-    return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."
+        return json.dumps(plain(value))
+    except (TypeError, ValueError):
+        return " ".join(repr(value).split())
+
+
+def show_name(name: str) -> str:
+    """Write the name of a field, as a document has it, for a path.
+
+    Args:
+        name: Any text.
+
+    Returns:
+        The name, cut to a readable length.
+    """
+    return name if len(name) <= _SHOWN else name[: _SHOWN - 3] + "..."
+
+
+def _line(field: str, detail: str) -> str:
+    place = field if len(field) <= _LONGEST_PATH else field[: _LONGEST_PATH - 3] + "..."
+    return one_line(f"{place}: {detail}")
 
 
 class FieldError(SpecError, ValueError):
@@ -38,7 +84,7 @@ class FieldError(SpecError, ValueError):
         """Make the message ``field: rule, got value``."""
         self.field = field
         self.detail = f"{rule}, got {show(value)}"
-        super().__init__(f"{field}: {self.detail}")
+        super().__init__(_line(field, self.detail))
 
     @classmethod
     def told(cls, field: str, detail: str) -> "FieldError":
@@ -53,7 +99,7 @@ class FieldError(SpecError, ValueError):
         """
         error = cls(field, "", None)
         error.detail = detail
-        error.args = (f"{field}: {detail}",)
+        error.args = (_line(field, detail),)
         return error
 
     def inside(self, parent: str) -> "FieldError":
@@ -78,7 +124,7 @@ class FieldError(SpecError, ValueError):
         """
         error = FieldError(field, "", None)
         error.detail = self.detail
-        error.args = (f"{field}: {self.detail}",)
+        error.args = (_line(field, self.detail),)
         return error
 
 

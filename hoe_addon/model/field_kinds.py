@@ -8,6 +8,7 @@ from typing import Any, cast
 from msgspec import Struct
 
 from .field_error import FieldError
+from .plain import is_unicode
 
 
 def flag(owner: Struct, field: str) -> bool:
@@ -41,13 +42,15 @@ def text(owner: Struct, field: str, *, empty: bool = False) -> str:
         The string.
 
     Raises:
-        FieldError: If it is not a string, or is empty and must not be.
+        FieldError: If it is not a string, no valid Unicode, or is empty and must not be.
     """
     value = getattr(owner, field)
     if not isinstance(value, str):
         raise FieldError(field, "must be a text", value)
     if not empty and not value.strip():
         raise FieldError(field, "must not be empty", value)
+    if not is_unicode(value):
+        raise FieldError(field, "must be valid Unicode", value)
     return value
 
 

@@ -25,6 +25,9 @@ SHARE_SLACK = 1e-9
 _LARGEST = 1e12
 """No length, index or luminance is larger; the squares of such numbers still fit into float32."""
 
+_SMALLEST = 1e-18
+"""No number that must be above 0 is smaller; the squares of such numbers are normal in float32."""
+
 
 def _real(field: str, value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -52,6 +55,8 @@ def _bounded(
         raise FieldError(field, f"must be at least {at_least:g}", value)
     if above is not None and number <= above:
         raise FieldError(field, f"must be above {above:g}", value)
+    if above == 0.0 and number < _SMALLEST:
+        raise FieldError(field, f"must be at least {_SMALLEST:g}", value)
     if at_most is not None and number > at_most:
         raise FieldError(field, f"must be at most {at_most:g}", value)
     return number

@@ -3,6 +3,7 @@
 """What a document may hold at a place: used to tell the user which names exist there."""
 
 from collections.abc import Sequence
+from functools import cache
 from typing import Any, cast
 
 import msgspec
@@ -50,7 +51,7 @@ def known_names(kind: type[msgspec.Struct], document: object, parts: Sequence[Pa
         Field names of a struct, tags of a union of structs, or the values of a choice, behind
         them `WHOLE` where that may stand too; empty where anything of a type may stand.
     """
-    info: inspect.Type | None = inspect.type_info(kind)
+    info: inspect.Type | None = _type_info(kind)
     here = document
     for place, part in enumerate(parts):
         chosen = _struct_for(info, here)
@@ -68,6 +69,12 @@ def known_names(kind: type[msgspec.Struct], document: object, parts: Sequence[Pa
         return []
     tag = [chosen.tag_field] if chosen.tag_field else []
     return [*tag, *(field.encode_name for field in chosen.fields)]
+
+
+@cache
+def _type_info(kind: type[msgspec.Struct]) -> inspect.Type:
+    """Look into a struct once: it takes longer than to read the document."""
+    return inspect.type_info(kind)
 
 
 def _members(info: inspect.Type | None) -> list[inspect.Type | None]:

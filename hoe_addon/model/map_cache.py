@@ -15,8 +15,10 @@ import numpy as np
 import OpenImageIO as oiio  # noqa: N813  (the name that its own documentation uses)
 from numpy.typing import NDArray
 
+from ..core.errors import SpecError
 from ..core.gradient_map import LARGEST, GradientMap
 from ..files import OutputError, replacing, writable_folder
+from .image_file import read_exr_pixels
 
 FORMAT = 1
 """Version of the files and of what is in them; part of their names."""
@@ -82,22 +84,13 @@ def read_map(path: Path, key: str) -> GradientMap | None:
     """
     if not path.is_file():
         return None
-    source = oiio.ImageInput.open(str(path))
-    if source is None:
-        oiio.geterror()
-        return None
     try:
-        spec = source.spec()
-        # Data from a file: nothing is read before its size is known to be sound.
-        if spec.nchannels != 4 or not 4 <= spec.width == spec.height <= LARGEST:
-            return None
-        header = _header(spec.getattribute(_HEADER))
-        pixels = source.read_image(0, 0, 0, 4, oiio.FLOAT)
-    finally:
-        source.close()
-    if header is None or pixels is None or header.get("key") != key:
+        texels, text = read_exr_pixels(path, _check_size, _HEADER)
+    except SpecError:
         return None
-    texels = np.asarray(pixels, np.float32).reshape(spec.height, spec.width, 4)
+    header = _header(text)
+    if header is None or header.get("key") != key:
+        return None
     if header.get("sha256") != _digest(texels):
         return None
     try:
@@ -142,12 +135,17 @@ def write_map(path: Path, key: str, made: GradientMap) -> None:
             raise OutputError(f"{path}: cannot be written: {output.geterror()}")
 
 
+def _check_size(spec: "oiio.ImageSpec") -> None:
+    if spec.nchannels != 4 or not 4 <= spec.width == spec.height <= LARGEST:
+        raise SpecError(f"must be a square of 4 channels, got {spec.width} x {spec.height}")
+
+
 def _header(text: object) -> dict[str, Any] | None:
     if not isinstance(text, str):
         return None
     try:
         found: object = json.loads(text)
-    except ValueError:
+    except (ValueError, RecursionError):
         return None
     return cast("dict[str, Any]", found) if isinstance(found, dict) else None
 

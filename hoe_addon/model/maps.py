@@ -12,6 +12,7 @@ import msgspec
 import numpy as np
 
 from ..core.arrays import FloatArray
+from ..core.errors import NotMadeError
 from ..core.gradient_map import LARGEST, LIMIT, TOLERANCE, GradientMap, Progress, bake
 from ..core.ray_fitting import fit_rays
 from ..core.units import mm_to_m
@@ -77,7 +78,11 @@ class MapRequest:
 
 
 def map_file(
-    request: MapRequest, folder: Path | None = None, progress: Progress | None = None
+    request: MapRequest,
+    folder: Path | None = None,
+    progress: Progress | None = None,
+    *,
+    make: bool = True,
 ) -> tuple[Path, GradientMap]:
     """Give a map as a file.
 
@@ -86,11 +91,13 @@ def map_file(
         folder: Folder of the cache, unless the environment names one.
         progress: Told the share that is done, where it has to be made; what it raises, such as
             `CancelledError`, stops the work, and no file is left.
+        make: Whether to make the map where it is not in the cache.
 
     Returns:
         The file, and the map in it with the error that was measured.
 
     Raises:
+        NotMadeError: It is not in the cache, and is not to be made.
         OutputError: The file cannot be written.
         SpecError: Nothing is recorded anywhere.
     """
@@ -99,6 +106,8 @@ def map_file(
     kept = map_cache.read_map(path, key)
     if kept is not None:
         return path, kept
+    if not make:
+        raise NotMadeError("recording: needs its map, which takes some seconds; press Bake")
     width, height = (mm_to_m(side) for side in request.surface.size_mm)
     shape = shape_from(request.surface)
     made = bake(request.gradient, shape.sag, (width, height), progress=progress)

@@ -8,8 +8,12 @@ from collections.abc import Iterable
 from typing import Any, cast
 
 from ..core.errors import SpecError
-from .field_error import FieldError, show
+from .field_error import FieldError, show, show_name
+from .plain import is_unicode
 from .reading import parse_json
+
+_DIGITS = 9
+"""Of the number of an item in a list."""
 
 
 def override(document: dict[str, Any], assignments: Iterable[str]) -> dict[str, Any]:
@@ -56,14 +60,14 @@ def _key(container: object, step: str, path: str) -> str | int:
             return step
     elif isinstance(container, list):
         items = cast("list[object]", container)
-        if step.isascii() and step.isdigit() and int(step) < len(items):
+        if step.isascii() and step.isdigit() and len(step) <= _DIGITS and int(step) < len(items):
             return int(step)
         own = [_own_name(item, place) for place, item in enumerate(items)]
         if step in own:
             return own.index(step)
         names = own
     existing = ", ".join(names) if names else "nothing below it"
-    raise SpecError(f"{path}: no such field, there is: {existing}")
+    raise SpecError(f"{show_name(path)}: no such field, there is: {existing}")
 
 
 def _own_name(item: object, place: int) -> str:
@@ -72,6 +76,8 @@ def _own_name(item: object, place: int) -> str:
 
 
 def _value(path: str, text: str) -> object:
+    if not is_unicode(text):
+        raise FieldError(path, "must be valid Unicode", text)
     try:
         json.loads(text)
     except (ValueError, RecursionError):
@@ -81,4 +87,4 @@ def _value(path: str, text: str) -> object:
     except FieldError as error:
         raise error.inside(path) from error
     except SpecError as error:
-        raise SpecError(f"{path}: {error}") from error
+        raise SpecError(f"{show_name(path)}: {error}") from error

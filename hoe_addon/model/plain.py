@@ -8,6 +8,22 @@ from typing import cast
 _WHOLE_LIMIT = 2.0**53
 
 
+def is_unicode(text: str) -> bool:
+    """Tell whether a text can be written to a file: bytes that are no text leave odd halves in it.
+
+    Args:
+        text: Any text.
+
+    Returns:
+        Whether it holds no surrogates.
+    """
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
 def plain(value: object) -> object:
     """Turn whole floats into integers and tuples into lists, all the way down.
 

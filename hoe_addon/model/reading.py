@@ -5,8 +5,6 @@
 Files may come from strangers: their size and depth are limited, and nothing in them is run.
 """
 
-import json
-import math
 import re
 import stat
 from collections.abc import Generator
@@ -17,11 +15,11 @@ from typing import Any, cast
 import msgspec
 
 from ..core.errors import SpecError
-from .field_error import FieldError, join
+from .field_error import FieldError, join, show_name
+from .json_text import parse_json as parse_json
 from .known import WHOLE, Part, in_words, known_names
 
-MAX_BYTES = 16 * 2**20
-MAX_DEPTH = 64
+MAX_BYTES = 8 * 2**20
 
 _PLACE = re.compile(r"^(?P<what>.*?)(?: - at `(?P<key>key in )?\$(?P<path>.*)`)?$", re.DOTALL)
 _STEP = re.compile(r"\.(?P<name>[^.\[]+)|\[(?P<index>\d+|\.\.\.)\]")
@@ -29,15 +27,6 @@ _LENGTH = re.compile(r"Expected `array` of length (?P<length>[^,]+)(?:, got \d+)
 _TEXT_LENGTH = re.compile(r"Expected `str` of length <= (?P<length>\d+)")
 _TYPE = re.compile(r"Expected `(?P<expected>.+)`, got `(?P<got>.+)`")
 _JSON_TYPES = {"dict": "object", "list": "array", "NoneType": "null"}
-
-
-class _Doubled(dict[str, Any]):
-    """An object of the text in which a name stands twice."""
-
-    def __init__(self, pairs: list[tuple[str, Any]]) -> None:
-        super().__init__(pairs)
-        names = [name for name, _ in pairs]
-        self.name = next(name for name in names if names.count(name) > 1)
 
 
 @contextmanager
@@ -88,61 +77,6 @@ def read_text(path: str | Path, max_bytes: int = MAX_BYTES) -> str:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise SpecError(f"cannot be read: not UTF-8 text at byte {error.start}") from error
-
-
-def parse_json(text: str) -> object:
-    """Parse JSON strictly.
-
-    Args:
-        text: The text.
-
-    Returns:
-        Plain objects, lists, strings, finite numbers, booleans, None.
-
-    Raises:
-        SpecError: On bad syntax, a doubled name, a number that is not finite, or deep nesting.
-    """
-    try:
-        document = json.loads(text, object_pairs_hook=_object)
-    except json.JSONDecodeError as error:
-        place = f"line {error.lineno} column {error.colno}"
-        raise SpecError(f"{place}: is not valid JSON: {error.msg}") from error
-    except ValueError as error:
-        raise SpecError(f"holds a number that is not valid: {error}") from error
-    except RecursionError as error:
-        raise SpecError(f"is nested deeper than {MAX_DEPTH} levels") from error
-    _check_plain(document, "", 0)
-    return document
-
-
-def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    plain = dict(pairs)
-    return plain if len(plain) == len(pairs) else _Doubled(pairs)
-
-
-def _check_plain(value: object, path: str, depth: int) -> None:
-    if isinstance(value, dict | list) and depth >= MAX_DEPTH:
-        raise SpecError(f"is nested deeper than {MAX_DEPTH} levels")
-    if isinstance(value, _Doubled):
-        raise FieldError(join(path, value.name), "stands twice", value[value.name])
-    if isinstance(value, dict):
-        for name, item in cast("dict[str, object]", value).items():
-            _check_plain(name, path, depth)
-            _check_plain(item, join(path, name), depth + 1)
-    elif isinstance(value, list):
-        for place, item in enumerate(cast("list[object]", value)):
-            _check_plain(item, f"{path}[{place}]", depth + 1)
-    elif isinstance(value, str) and any("\ud800" <= letter <= "\udfff" for letter in value):
-        raise FieldError(path, "must be valid Unicode", value)
-    elif isinstance(value, int | float) and not _is_finite(value):
-        raise FieldError(path, "must be a finite number", value)
-
-
-def _is_finite(value: float) -> bool:
-    try:
-        return math.isfinite(value)
-    except OverflowError:
-        return False
 
 
 def to_spec[S: msgspec.Struct](document: object, kind: type[S]) -> S:
@@ -272,5 +206,5 @@ def at(document: object, parts: list[Part]) -> object:
 def _written(parts: list[Part]) -> str:
     path = ""
     for part in parts:
-        path = join(path, f"[{part}]" if isinstance(part, int) else part)
+        path = join(path, f"[{part}]" if isinstance(part, int) else show_name(part))
     return path

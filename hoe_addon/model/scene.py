@@ -60,8 +60,8 @@ class SceneSpec(
             raise FieldError("gaze_deg[0]", f"must be within {_HALF_TURN_DEG:g}", aside)
         if abs(up) > _STEEPEST_DEG:
             raise FieldError("gaze_deg[1]", f"must be within {_STEEPEST_DEG:g}", up)
-        if not 1 <= len(self.elements) <= _MAX_ELEMENTS:
-            rule = f"must hold 1 to {_MAX_ELEMENTS} elements"
+        if len(self.elements) > _MAX_ELEMENTS:
+            rule = f"must hold at most {_MAX_ELEMENTS} elements"
             raise FieldError("elements", rule, len(self.elements))
         names: set[str] = set()
         for place, element in enumerate(self.elements):

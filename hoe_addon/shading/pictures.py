@@ -5,11 +5,12 @@
 from pathlib import Path
 
 import numpy as np
-import OpenImageIO as oiio  # noqa: N813  (the name that its own documentation uses)
 from numpy.typing import NDArray
 
+from ..core.errors import SpecError
 from ..model.device_parts import BUILT_IN_IMAGES
 from ..model.field_error import FieldError
+from ..model.image_file import check_readable
 from . import stroke_font, symbols
 from .canvas import Canvas, Colour, text
 
@@ -89,15 +90,10 @@ def check_picture(path: Path, field: str = "display.image") -> None:
     Raises:
         FieldError: It is not one.
     """
-    source = oiio.ImageInput.open(str(path))
-    pixels = None
-    if source is not None:
-        pixels = source.read_image(0, 0, 0, source.spec().nchannels, oiio.UINT8)
-        source.close()
-    if pixels is None:
-        # OpenImageIO keeps its message until it is asked for.
-        oiio.geterror()
-        raise FieldError(field, "must be a picture that can be read", path.name)
+    try:
+        check_readable(path)
+    except SpecError as error:
+        raise FieldError(field, str(error), path.name) from error
 
 
 def dot_centres() -> NDArray[np.float64]:

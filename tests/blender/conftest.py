@@ -31,8 +31,8 @@ def registered(clean_scene: Any) -> Iterator[Any]:
 @pytest.fixture
 def make_material(registered: Any) -> Callable[..., Any]:
     """Make a hologram's material from its document, with a wavelength of its own scene."""
-    from hoe_addon.blender.materials import hologram_material
-    from hoe_addon.blender.spectral import spectral_scene
+    from hoe_addon.blender.shaders.materials import hologram_material
+    from hoe_addon.blender.shaders.spectral import spectral_scene
     from hoe_addon.core.spectrum import line
     from hoe_addon.core.wavelength_sampling import by_significance
     from hoe_addon.model.document import hologram_from

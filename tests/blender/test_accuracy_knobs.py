@@ -4,8 +4,8 @@
 
 import pytest
 
-from hoe_addon.blender.accuracy_knobs import KNOBS, Variant, reference_spec, variants
-from hoe_addon.blender.accuracy_orders import holograms_of, weakest_orders, without_orders
+from hoe_addon.blender.accuracy.knobs import KNOBS, Variant, reference_spec, variants
+from hoe_addon.blender.accuracy.orders import holograms_of, weakest_orders, without_orders
 from hoe_addon.model.document import device_from, load_device, to_document
 from hoe_addon.model.efficiency import ConstantSpec
 from hoe_addon.resources import preset_paths

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from hoe_addon.blender.accuracy_time import FixedTime, SampleTime, sample_time
+from hoe_addon.blender.accuracy.timing import FixedTime, SampleTime, sample_time
 
 EACH, FIXED, SCATTER = 0.0158, 0.7, 0.12
 """As measured on small pictures, in seconds."""

@@ -11,8 +11,8 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender import nodes
-from hoe_addon.blender.osl import compiled
+from hoe_addon.blender.shaders import nodes
+from hoe_addon.blender.shaders.osl import compiled
 from hoe_addon.core.errors import ShaderCompileError
 from hoe_addon.core.orders import Branch
 from hoe_addon.model.document import hologram_from

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hoe_addon.blender import convergence as loop
-from hoe_addon.blender.convergence import converge
-from hoe_addon.blender.halves import SEQUENCE, Cost
-from hoe_addon.blender.render import COMBINED
-from hoe_addon.blender.view import DISPLAY_LAYER, View
+from hoe_addon.blender.pictures import convergence as loop
+from hoe_addon.blender.pictures.convergence import converge
+from hoe_addon.blender.pictures.halves import SEQUENCE, Cost
+from hoe_addon.blender.pictures.render import COMBINED
+from hoe_addon.blender.pictures.view import DISPLAY_LAYER, View
 from hoe_addon.core.errors import CancelledError
 from hoe_addon.core.sampling_error import lit_field
 from hoe_addon.model.quality import QualitySpec

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from msgspec import structs
 
-from hoe_addon.blender import nodes
-from hoe_addon.blender.device import DeviceScene, build_device
-from hoe_addon.blender.diffracted import is_plain, is_worth_it
-from hoe_addon.blender.view import View, view_metrics
+from hoe_addon.blender.build.device import DeviceScene, build_device
+from hoe_addon.blender.pictures.diffracted import is_plain, is_worth_it
+from hoe_addon.blender.pictures.view import View, view_metrics
+from hoe_addon.blender.shaders import nodes
 from hoe_addon.model.device import DeviceSpec
 from hoe_addon.model.document import load_device
 from hoe_addon.model.effects import EffectPlan, plan_effects

@@ -14,13 +14,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hoe_addon.blender import meshes, nodes
-from hoe_addon.blender.device import build_device
-from hoe_addon.blender.element import ERROR_PROPERTY, hologram_element, surface_of
-from hoe_addon.blender.eye import add_eye, set_pupil
-from hoe_addon.blender.guide import add_guide, patch_frame
-from hoe_addon.blender.materials import hologram_material
-from hoe_addon.blender.spectral import SpectralScene, spectral_scene
+from hoe_addon.blender.build import meshes
+from hoe_addon.blender.build.device import build_device
+from hoe_addon.blender.build.element import ERROR_PROPERTY, hologram_element, surface_of
+from hoe_addon.blender.build.eye import add_eye, set_pupil
+from hoe_addon.blender.build.guide import add_guide, patch_frame
+from hoe_addon.blender.shaders import nodes
+from hoe_addon.blender.shaders.materials import hologram_material
+from hoe_addon.blender.shaders.spectral import SpectralScene, spectral_scene
 from hoe_addon.core.errors import SpecError
 from hoe_addon.core.spectrum import line
 from hoe_addon.core.units import m_to_mm, mm_to_m

@@ -11,10 +11,11 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender import meshes, nodes
+from hoe_addon.blender.build import meshes
+from hoe_addon.blender.pictures.render import COMBINED, render_layers
+from hoe_addon.blender.pictures.render_settings import set_up
 from hoe_addon.blender.props.sync import hologram_node, read_spec, refresh, refresh_changed
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.render_settings import set_up
+from hoe_addon.blender.shaders import nodes
 from hoe_addon.core.errors import SpecError
 from hoe_addon.core.orders import Branch
 from hoe_addon.model.evaluate import fan

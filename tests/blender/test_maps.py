@@ -43,8 +43,8 @@ def behind(lens: dict[str, Any]) -> dict[str, Any]:
 
 @pytest.fixture
 def material_of(clean_scene: Any) -> Any:
-    from hoe_addon.blender.materials import hologram_material
-    from hoe_addon.blender.spectral import spectral_scene
+    from hoe_addon.blender.shaders.materials import hologram_material
+    from hoe_addon.blender.shaders.spectral import spectral_scene
     from hoe_addon.core.spectrum import line
     from hoe_addon.core.wavelength_sampling import by_significance
 
@@ -132,7 +132,7 @@ def test_a_packed_map_is_the_map_also_after_saving(material_of, behind, folder, 
 def test_another_pattern_leaves_no_image_behind(material_of, behind):
     import bpy
 
-    from hoe_addon.blender.maps import update_map
+    from hoe_addon.blender.shaders.maps import update_map
 
     material = material_of(behind)
     before = images()[0]["hoe_map"]
@@ -149,7 +149,7 @@ def test_another_pattern_leaves_no_image_behind(material_of, behind):
 def test_another_surface_takes_another_text(material_of, behind):
     import bpy
 
-    from hoe_addon.blender.maps import update_map
+    from hoe_addon.blender.shaders.maps import update_map
 
     material = material_of(behind)
     texts = {text.name for text in bpy.data.texts}
@@ -165,7 +165,7 @@ def test_another_surface_takes_another_text(material_of, behind):
 def test_a_formula_needs_no_map(material_of, behind, lens):
     import bpy
 
-    from hoe_addon.blender.maps import update_map
+    from hoe_addon.blender.shaders.maps import update_map
 
     material = material_of(behind)
     update_map(material, hologram_from(lens))
@@ -179,7 +179,7 @@ def test_a_formula_needs_no_map(material_of, behind, lens):
 def test_stopped_work_leaves_the_material_as_it_was(material_of, behind):
     import bpy
 
-    from hoe_addon.blender.maps import update_map
+    from hoe_addon.blender.shaders.maps import update_map
 
     material = material_of(behind)
     image = material.node_tree.nodes["Map"].image
@@ -207,9 +207,10 @@ class TestLostFile:
         import bpy
         import numpy as np
 
-        from hoe_addon.blender import meshes, nodes
-        from hoe_addon.blender.render import COMBINED, render_layers
-        from hoe_addon.blender.render_settings import set_up
+        from hoe_addon.blender.build import meshes
+        from hoe_addon.blender.pictures.render import COMBINED, render_layers
+        from hoe_addon.blender.pictures.render_settings import set_up
+        from hoe_addon.blender.shaders import nodes
         from hoe_addon.shading.probe import direction_world_shader
 
         set_up(clean_scene, samples=1, seed=0, spectral=False, max_bounces=8)

@@ -11,10 +11,10 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender import osl
-from hoe_addon.blender.device import build_device
-from hoe_addon.blender.render_settings import set_up
-from hoe_addon.blender.trace import trace_cycles
+from hoe_addon.blender.build.device import build_device
+from hoe_addon.blender.pictures.render_settings import set_up
+from hoe_addon.blender.pictures.trace import trace_cycles
+from hoe_addon.blender.shaders import osl
 from hoe_addon.cli import main
 from hoe_addon.core.errors import MissingOslError
 from hoe_addon.model.document import find_device, hologram_from, load_device

@@ -12,7 +12,6 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender import nodes, osl
 from hoe_addon.blender.props import changes
 from hoe_addon.blender.props.sync import (
     hologram_node,
@@ -22,6 +21,7 @@ from hoe_addon.blender.props.sync import (
     refresh_changed,
     write_spec,
 )
+from hoe_addon.blender.shaders import nodes, osl
 from hoe_addon.core.errors import ShaderCompileError, SpecError
 from hoe_addon.model.document import hologram_from
 from hoe_addon.shading.hologram import Frame, hologram_shader, hologram_sockets
@@ -213,16 +213,16 @@ def test_compiler_error_is_told(
 def test_changes_are_gathered(make_material: Make, lens: dict[str, Any]) -> None:
     """However many properties change, there is one timer and one refresh a material."""
     one, other = make_material(lens), make_material(lens | {"name": "other"})
-    assert not bpy.app.timers.is_registered(refresh_changed), "made by script: nothing to do"
+    assert not changes.is_waiting(), "made by script: nothing to do"
     for material in (one, other):
         material.hologram.recording.wavelength_nm = 600.0
         material.hologram.recording.wavelength_nm = 610.0
         material.hologram.media.back.index = 1.25
-    assert bpy.app.timers.is_registered(refresh_changed)
-    waiting = list(changes.taken())
+    assert changes.is_waiting()
+    waiting = list(changes.taken(bpy.data.materials))
     assert {material.name for material in waiting} == {one.name, other.name}
     assert len(waiting) == 2
-    assert not list(changes.taken())
+    assert not list(changes.taken(bpy.data.materials))
 
 
 def test_gathered_changes_reach_the_nodes(make_material: Make, lens: dict[str, Any]) -> None:
@@ -243,9 +243,9 @@ def test_gathered_changes_reach_the_nodes(make_material: Make, lens: dict[str, A
 
 def test_writing_a_spec_notes_no_change(make_material: Make, lens: dict[str, Any]) -> None:
     material = make_material(lens)
-    list(changes.taken())
+    list(changes.taken(bpy.data.materials))
     write_spec(material, hologram_from(lens | {"orders": [0, 1]}))
-    assert not list(changes.taken())
+    assert not list(changes.taken(bpy.data.materials))
     assert refresh(material)
     assert_agrees(material)
 

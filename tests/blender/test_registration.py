@@ -152,13 +152,13 @@ def test_cycles_leak_nothing() -> None:
 
 
 def test_pending_changes_go_with_the_add_on(make_material: Any, lens: dict[str, Any]) -> None:
-    from hoe_addon.blender.props.sync import refresh_changed
+    from hoe_addon.blender.props import changes
 
     make_material(lens).hologram.recording.wavelength_nm = 600.0
-    assert bpy.app.timers.is_registered(refresh_changed)
+    assert changes.is_waiting()
     hoe_addon.unregister()
     try:
-        assert not bpy.app.timers.is_registered(refresh_changed)
+        assert not changes.is_waiting()
     finally:
         hoe_addon.register()
 

@@ -9,9 +9,9 @@ from typing import Any, Never
 
 import pytest
 
-from hoe_addon.blender import convergence as loop
-from hoe_addon.blender import view as views
-from hoe_addon.blender.reached import Reached
+from hoe_addon.blender.pictures import convergence as loop
+from hoe_addon.blender.pictures import view as views
+from hoe_addon.blender.pictures.reached import Reached
 from hoe_addon.cli import main, render
 from hoe_addon.cli.interrupt import EXIT_INTERRUPTED
 from hoe_addon.core.errors import CancelledError

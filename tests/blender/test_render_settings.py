@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender.render_settings import (
+from hoe_addon.blender.pictures.render_settings import (
     carry_time_on_rows,
     set_picture,
     set_up,

@@ -7,7 +7,7 @@ from pathlib import Path
 import bpy
 import pytest
 
-from hoe_addon.blender.view import save_blend
+from hoe_addon.blender.pictures.view import save_blend
 
 
 @pytest.mark.parametrize("versions", [0, 1, 3])

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender.device import DeviceScene, build_device
+from hoe_addon.blender.build.device import DeviceScene, build_device
 from hoe_addon.cli import main
 from hoe_addon.model.document import device_from, load_device, to_document
 from hoe_addon.model.scene import SceneSpec

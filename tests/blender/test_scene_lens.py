@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hoe_addon.blender.device import build_device
+from hoe_addon.blender.build.device import build_device
 from hoe_addon.model.document import device_from, find_device
 from hoe_addon.model.scene import SceneSpec
 from hoe_addon.model.scene_lens import LensElement

@@ -36,6 +36,7 @@ SLOW = {
     "10_how_much_light",
     "11_accuracy",
     "12_laser_grating",
+    "14_script",
 }
 """About five to ten seconds even so."""
 
@@ -60,6 +61,7 @@ RESULTS = {
     "10_how_much_light": {"models.png", "numbers.json"},
     "11_accuracy": {"numbers.json"},
     "12_laser_grating": {"numbers.json"},
+    "14_script": {"numbers.json"},
 }
 
 

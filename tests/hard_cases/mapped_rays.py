@@ -16,8 +16,8 @@ import bpy
 import numpy as np
 from mpmath import mp, mpf
 
-from hoe_addon.blender import nodes
-from hoe_addon.blender.element import hologram_element
+from hoe_addon.blender.build.element import hologram_element
+from hoe_addon.blender.shaders import nodes
 from hoe_addon.core.orders import Branch
 from hoe_addon.core.ray_law import Status, diffract
 from hoe_addon.core.units import mm_to_m, nm_to_m

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hoe_addon import resources
-from hoe_addon.blender import nodes
-from hoe_addon.blender.osl import compiled
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.render_settings import set_up
+from hoe_addon.blender.pictures.render import COMBINED, render_layers
+from hoe_addon.blender.pictures.render_settings import set_up
+from hoe_addon.blender.shaders import nodes
+from hoe_addon.blender.shaders.osl import compiled
 from hoe_addon.shading.source import ShaderSource, array
 
 EFFICIENCY_HEADERS = ("hoe_medium.h", "hoe_kinoform.h", "hoe_math.h", "hoe_relief.h")

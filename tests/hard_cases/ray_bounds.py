@@ -11,7 +11,7 @@ import pytest
 from mpmath import mp, mpf
 from numpy.typing import ArrayLike, NDArray
 
-from hoe_addon.blender.trace import trace_cycles
+from hoe_addon.blender.pictures.trace import trace_cycles
 from hoe_addon.core.ray_law import Status
 from hoe_addon.model.document import hologram_from
 from hoe_addon.model.evaluate import trace

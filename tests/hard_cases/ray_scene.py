@@ -10,10 +10,11 @@ import bpy
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hoe_addon.blender import meshes, nodes
-from hoe_addon.blender.osl import compiled
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.render_settings import set_up
+from hoe_addon.blender.build import meshes
+from hoe_addon.blender.pictures.render import COMBINED, render_layers
+from hoe_addon.blender.pictures.render_settings import set_up
+from hoe_addon.blender.shaders import nodes
+from hoe_addon.blender.shaders.osl import compiled
 from hoe_addon.blender.temporary import temporary_scene
 from hoe_addon.shading.probe import MISSED, direction_world_shader, ray_camera_shader
 from hoe_addon.shading.source import ShaderSource

@@ -13,11 +13,12 @@ import pytest
 from mpmath import mp, mpf
 from numpy.typing import NDArray
 
-from hoe_addon.blender import materials, meshes
-from hoe_addon.blender.eye import add_eye
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.render_settings import set_up
-from hoe_addon.blender.spectral import spectral_scene
+from hoe_addon.blender.build import meshes
+from hoe_addon.blender.build.eye import add_eye
+from hoe_addon.blender.pictures.render import COMBINED, render_layers
+from hoe_addon.blender.pictures.render_settings import set_up
+from hoe_addon.blender.shaders import materials
+from hoe_addon.blender.shaders.spectral import spectral_scene
 from hoe_addon.core import colour, data, spectrum
 from hoe_addon.core.errors import SpecError
 from hoe_addon.core.spectrum import Spectrum, display_primaries, line, tabulated

@@ -8,9 +8,10 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender import meshes, nodes
-from hoe_addon.blender.guide import add_guide
-from hoe_addon.blender.spectral import spectral_scene
+from hoe_addon.blender.build import meshes
+from hoe_addon.blender.build.guide import add_guide
+from hoe_addon.blender.shaders import nodes
+from hoe_addon.blender.shaders.spectral import spectral_scene
 from hoe_addon.core.orders import Branch
 from hoe_addon.core.wavelength_sampling import by_significance
 from hoe_addon.model.device import GuideSpec, PatchSpec

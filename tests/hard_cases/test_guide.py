@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from mathutils import Matrix, Quaternion
 
-from hoe_addon.blender import nodes
-from hoe_addon.blender.guide import add_guide
-from hoe_addon.blender.spectral import spectral_scene
+from hoe_addon.blender.build.guide import add_guide
+from hoe_addon.blender.shaders import nodes
+from hoe_addon.blender.shaders.spectral import spectral_scene
 from hoe_addon.core import tracer
 from hoe_addon.core.arrays import BoolArray, IntArray
 from hoe_addon.core.units import mm_to_m

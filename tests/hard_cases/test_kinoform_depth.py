@@ -9,7 +9,7 @@ import pytest
 from mpmath import mp, mpf
 from numpy.typing import NDArray
 
-from hoe_addon.blender.trace import trace_cycles
+from hoe_addon.blender.pictures.trace import trace_cycles
 from hoe_addon.core.efficiency import kinoform
 from hoe_addon.core.media import constant
 from hoe_addon.model.document import hologram_from

@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from hoe_addon.blender import meshes, nodes
+from hoe_addon.blender.build import meshes
+from hoe_addon.blender.shaders import nodes
 from hoe_addon.core import tracer
 from hoe_addon.core.orders import Branch
 from hoe_addon.core.units import mm_to_m

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hoe_addon.blender import trace
+from hoe_addon.blender.pictures import trace
 from hoe_addon.core.efficiency.table import EfficiencyTable
 from hoe_addon.core.orders import Branch
 from hoe_addon.core.ray_law import Status

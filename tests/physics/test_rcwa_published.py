@@ -10,15 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hoe_addon.core.rcwa import (
-    Layer,
-    PlaneWaves,
-    Smooth,
-    Solution,
-    Stack,
-    solve,
-    volume_layers,
-)
+from hoe_addon.core.rcwa import Layer, PlaneWaves, Smooth, Solution, Stack, solve, volume_layers
 from hoe_addon.core.rcwa.modes import lse_modes, lsm_modes
 from hoe_addon.core.rcwa.reliefs import binary, sinusoid
 

@@ -6,12 +6,7 @@ import numpy as np
 import pytest
 
 from hoe_addon.core.efficiency import Incidence
-from hoe_addon.core.efficiency.fabrication import (
-    mask_count,
-    mask_segments,
-    mask_steps,
-    with_walls,
-)
+from hoe_addon.core.efficiency.fabrication import mask_count, mask_segments, mask_steps, with_walls
 from hoe_addon.core.efficiency.profiles import Binary, Sawtooth, Sinusoid
 from hoe_addon.core.efficiency.relief import Kinoform
 from hoe_addon.core.efficiency.segments import Segments, triangle

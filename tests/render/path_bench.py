@@ -6,11 +6,12 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from hoe_addon.blender import materials, meshes, nodes
-from hoe_addon.blender.osl import compiled
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.render_settings import set_up
-from hoe_addon.blender.spectral import spectral_scene
+from hoe_addon.blender.build import meshes
+from hoe_addon.blender.pictures.render import COMBINED, render_layers
+from hoe_addon.blender.pictures.render_settings import set_up
+from hoe_addon.blender.shaders import materials, nodes
+from hoe_addon.blender.shaders.osl import compiled
+from hoe_addon.blender.shaders.spectral import spectral_scene
 from hoe_addon.core.wavelength_sampling import by_significance
 from hoe_addon.model.hologram import HologramSpec
 from hoe_addon.shading.probe import direction_world_shader, ray_camera_shader

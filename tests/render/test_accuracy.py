@@ -18,10 +18,10 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender.accuracy_results import Judge
-from hoe_addon.blender.accuracy_shots import Shots, division_of
-from hoe_addon.blender.accuracy_target import sharpness
-from hoe_addon.blender.device import build_device
+from hoe_addon.blender.accuracy.results import Judge
+from hoe_addon.blender.accuracy.shots import Shots, division_of
+from hoe_addon.blender.accuracy.target import sharpness
+from hoe_addon.blender.build.device import build_device
 from hoe_addon.cli import main
 from hoe_addon.core.picture_error import emitter_field
 from hoe_addon.model.document import load_device
@@ -184,7 +184,7 @@ def test_stop_keeps_what_is_done(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The user asks to stop as soon as the device as it is has been measured."""
-    from hoe_addon.blender import accuracy_runs
+    from hoe_addon.blender.accuracy import runs as accuracy_runs
 
     wishes: list[str] = []
     measured = accuracy_runs._runs

@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 import pytest
 
-from hoe_addon.blender.bench import CASES, STOCK, run_benchmark
+from hoe_addon.blender.bench.surfaces import CASES, STOCK, run_benchmark
 from hoe_addon.cli import main
 
 pytestmark = pytest.mark.render

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hoe_addon.blender.trace import trace_cycles
+from hoe_addon.blender.pictures.trace import trace_cycles
 from hoe_addon.core.ray_law import Status
 from hoe_addon.model.convert import pattern_from
 from hoe_addon.model.document import hologram_from

@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hoe_addon.blender import materials, meshes, nodes
-from hoe_addon.blender.eye import add_eye
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.render_settings import set_up
-from hoe_addon.blender.spectral import SpectralScene, spectral_scene
+from hoe_addon.blender.build import meshes
+from hoe_addon.blender.build.eye import add_eye
+from hoe_addon.blender.pictures.render import COMBINED, render_layers
+from hoe_addon.blender.pictures.render_settings import set_up
+from hoe_addon.blender.shaders import materials, nodes
+from hoe_addon.blender.shaders.spectral import SpectralScene, spectral_scene
 from hoe_addon.core import colour
 from hoe_addon.core.spectrum import Spectrum, display_primaries, line
 from hoe_addon.core.wavelength_sampling import by_significance

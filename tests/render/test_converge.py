@@ -15,11 +15,11 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender import exr
-from hoe_addon.blender.convergence import converge
-from hoe_addon.blender.device import DeviceScene, build_device
-from hoe_addon.blender.halves import PassHalves
-from hoe_addon.blender.passes import whole
+from hoe_addon.blender.build.device import DeviceScene, build_device
+from hoe_addon.blender.pictures import exr
+from hoe_addon.blender.pictures.convergence import converge
+from hoe_addon.blender.pictures.halves import PassHalves
+from hoe_addon.blender.pictures.passes import whole
 from hoe_addon.cli import main
 from hoe_addon.core.photometry import luminance
 from hoe_addon.core.sampling_error import lit_field

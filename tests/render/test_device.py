@@ -9,9 +9,9 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender.device import DeviceScene, build_device
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.view import DISPLAY_LAYER
+from hoe_addon.blender.build.device import DeviceScene, build_device
+from hoe_addon.blender.pictures.render import COMBINED, render_layers
+from hoe_addon.blender.pictures.view import DISPLAY_LAYER
 from hoe_addon.cli import main
 from hoe_addon.model.document import find_device, load_device
 from hoe_addon.model.field import field_mask
@@ -105,7 +105,7 @@ def test_view_blend_renders_the_same_without_the_add_on(tmp_path: Path) -> None:
     """The .blend carries shaders and pictures: opened alone it gives the EXR's picture."""
     options = ["--size", "48x36", "--samples", "8", "--no-denoise", "--out", str(tmp_path)]
     assert main(["render", PRESET, *options]) == 0
-    from hoe_addon.blender import exr
+    from hoe_addon.blender.pictures import exr
 
     shown = exr.read(tmp_path / "view.exr")
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "view.blend"))

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from msgspec import structs
 
-from hoe_addon.blender.bench_effects import (
+from hoe_addon.blender.bench.effects import (
     Likeness,
     Series,
     compare,
@@ -16,7 +16,7 @@ from hoe_addon.blender.bench_effects import (
     series,
     with_everything,
 )
-from hoe_addon.blender.diffracted import is_worth_it
+from hoe_addon.blender.pictures.diffracted import is_worth_it
 from hoe_addon.model.device import DeviceSpec
 from hoe_addon.model.document import device_from, find_device, load_device, to_document
 from hoe_addon.model.effects import Effect, plan_effects

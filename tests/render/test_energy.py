@@ -12,11 +12,12 @@ import pytest
 from mathutils import Euler
 from numpy.typing import NDArray
 
-from hoe_addon.blender import materials, meshes, nodes
-from hoe_addon.blender.osl import compiled
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.render_settings import set_up
-from hoe_addon.blender.spectral import SpectralScene, spectral_scene
+from hoe_addon.blender.build import meshes
+from hoe_addon.blender.pictures.render import COMBINED, render_layers
+from hoe_addon.blender.pictures.render_settings import set_up
+from hoe_addon.blender.shaders import materials, nodes
+from hoe_addon.blender.shaders.osl import compiled
+from hoe_addon.blender.shaders.spectral import SpectralScene, spectral_scene
 from hoe_addon.core.efficiency import meet
 from hoe_addon.core.fresnel import reflectance_unpolarised
 from hoe_addon.core.media import by_name

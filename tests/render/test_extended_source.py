@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 
 from hoe_addon import resources
-from hoe_addon.blender import meshes, nodes
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.render_settings import set_up
-from hoe_addon.blender.trace import trace_cycles
+from hoe_addon.blender.build import meshes
+from hoe_addon.blender.pictures.render import COMBINED, render_layers
+from hoe_addon.blender.pictures.render_settings import set_up
+from hoe_addon.blender.pictures.trace import trace_cycles
+from hoe_addon.blender.shaders import nodes
 from hoe_addon.core.ray_law import Status
 from hoe_addon.core.units import mm_to_m
 from hoe_addon.core.waves import ExtendedSource

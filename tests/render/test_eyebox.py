@@ -9,8 +9,8 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender.device import build_device
-from hoe_addon.blender.eyebox import fields_at
+from hoe_addon.blender.build.device import build_device
+from hoe_addon.blender.pictures.eyebox import fields_at
 from hoe_addon.cli import main
 from hoe_addon.core.photometry import measure
 from hoe_addon.model.device_walk import eyebox_luminance

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 
-from hoe_addon.blender.trace import trace_cycles
+from hoe_addon.blender.pictures.trace import trace_cycles
 from hoe_addon.core.efficiency.profiles import Binary, Profile, Sawtooth, Sinusoid
 from hoe_addon.core.efficiency.segments import Segments, Steps, joined_samples, triangle
 from hoe_addon.core.ray_law import Status

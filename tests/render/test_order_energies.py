@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hoe_addon.blender import materials
+from hoe_addon.blender.shaders import materials
 from hoe_addon.core.efficiency import meet
 from hoe_addon.core.efficiency.table import EfficiencyTable
 from hoe_addon.core.orders import REFLECTED_ZERO, TRANSMITTED_ZERO, Branch, order_weights

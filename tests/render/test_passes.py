@@ -11,16 +11,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hoe_addon.blender.device import DeviceScene, build_device
-from hoe_addon.blender.division import Division, divided
-from hoe_addon.blender.passes import (
-    DISPLAY_LAYER,
-    FirstOrders,
-    Pass,
-    is_divisible,
-    whole,
-)
-from hoe_addon.blender.render import COMBINED, Region
+from hoe_addon.blender.build.device import DeviceScene, build_device
+from hoe_addon.blender.pictures.division import Division, divided
+from hoe_addon.blender.pictures.passes import DISPLAY_LAYER, FirstOrders, Pass, is_divisible, whole
+from hoe_addon.blender.pictures.render import COMBINED, Region
 from hoe_addon.core.colour import LUMINANCE_WEIGHTS
 from hoe_addon.model.document import load_device
 from hoe_addon.model.field import field_mask

@@ -9,9 +9,9 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender.device import DeviceScene, build_device
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.scene_measure import pixel_direction, seen_direction
+from hoe_addon.blender.build.device import DeviceScene, build_device
+from hoe_addon.blender.build.measure import pixel_direction, seen_direction
+from hoe_addon.blender.pictures.render import COMBINED, render_layers
 from hoe_addon.cli import main
 from hoe_addon.core.photometry import luminance
 from hoe_addon.model.document import device_from, load_device, to_document

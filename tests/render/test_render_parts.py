@@ -6,8 +6,8 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender import render
-from hoe_addon.blender.device import build_device
+from hoe_addon.blender.build.device import build_device
+from hoe_addon.blender.pictures import render
 from hoe_addon.core.errors import CancelledError
 from hoe_addon.model.document import find_device, load_device
 

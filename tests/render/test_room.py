@@ -8,10 +8,11 @@ import bpy
 import numpy as np
 import pytest
 
-from hoe_addon.blender import meshes, nodes
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.render_settings import set_up
-from hoe_addon.blender.room import add_living_room
+from hoe_addon.blender.build import meshes
+from hoe_addon.blender.pictures.render import COMBINED, render_layers
+from hoe_addon.blender.pictures.render_settings import set_up
+from hoe_addon.blender.room.living_room import add_living_room
+from hoe_addon.blender.shaders import nodes
 from hoe_addon.core.colour import LUMINANCE_WEIGHTS
 
 WHITE = 2.5

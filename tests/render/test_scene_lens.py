@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hoe_addon.blender.device import build_device
-from hoe_addon.blender.scene_measure import seen_direction
+from hoe_addon.blender.build.device import build_device
+from hoe_addon.blender.build.measure import seen_direction
 from hoe_addon.model.document import device_from, load_device, to_document
 from hoe_addon.model.scene import SceneSpec
 from hoe_addon.model.scene_lens import LensElement

@@ -11,14 +11,14 @@ import pytest
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from hoe_addon.blender import materials, nodes
-from hoe_addon.blender.element import ERROR_PROPERTY, hologram_element
-from hoe_addon.blender.meshes import NORMAL_ATTRIBUTE
-from hoe_addon.blender.osl import compiled
-from hoe_addon.blender.render import COMBINED, render_layers
-from hoe_addon.blender.render_settings import set_up
-from hoe_addon.blender.spectral import spectral_scene
-from hoe_addon.blender.trace import trace_cycles
+from hoe_addon.blender.build.element import ERROR_PROPERTY, hologram_element
+from hoe_addon.blender.build.meshes import NORMAL_ATTRIBUTE
+from hoe_addon.blender.pictures.render import COMBINED, render_layers
+from hoe_addon.blender.pictures.render_settings import set_up
+from hoe_addon.blender.pictures.trace import trace_cycles
+from hoe_addon.blender.shaders import materials, nodes
+from hoe_addon.blender.shaders.osl import compiled
+from hoe_addon.blender.shaders.spectral import spectral_scene
 from hoe_addon.core.ray_law import Status
 from hoe_addon.core.shapes import Conic, MeshShape
 from hoe_addon.core.shapes.refine import refined

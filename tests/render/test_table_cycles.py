@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hoe_addon.blender import materials, trace
-from hoe_addon.blender.bench_tables import compare_lookups
+from hoe_addon.blender.bench.tables import compare_lookups
+from hoe_addon.blender.pictures import trace
+from hoe_addon.blender.shaders import materials
 from hoe_addon.core.efficiency import Incidence, meet
 from hoe_addon.core.efficiency.table import EfficiencyTable
 from hoe_addon.core.orders import Branch

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hoe_addon.blender.trace import trace_cycles
+from hoe_addon.blender.pictures.trace import trace_cycles
 from hoe_addon.model.document import hologram_from
 from hoe_addon.model.evaluate import trace
 from hoe_addon.model.rays import RayTable

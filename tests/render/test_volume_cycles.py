@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hoe_addon.blender import trace as probe
-from hoe_addon.blender.trace import trace_cycles
+from hoe_addon.blender.pictures import trace as probe
+from hoe_addon.blender.pictures.trace import trace_cycles
 from hoe_addon.core.arrays import unit
 from hoe_addon.core.orders import Branch
 from hoe_addon.core.ray_law import Status

@@ -10,8 +10,8 @@ import msgspec
 import numpy as np
 import pytest
 
-from hoe_addon.blender import nodes
-from hoe_addon.blender.trace import trace_cycles
+from hoe_addon.blender.pictures.trace import trace_cycles
+from hoe_addon.blender.shaders import nodes
 from hoe_addon.core.orders import Branch
 from hoe_addon.core.ray_law import Status
 from hoe_addon.core.units import mm_to_m

@@ -15,12 +15,7 @@ from hoe_addon.model.document import hologram_from
 from hoe_addon.model.efficiency import ConstantSpec
 from hoe_addon.model.hologram import HologramSpec
 from hoe_addon.shading.efficiency.form import efficiency_form
-from hoe_addon.shading.hologram import (
-    Frame,
-    hologram_shader,
-    hologram_sockets,
-    one_order_shader,
-)
+from hoe_addon.shading.hologram import Frame, hologram_shader, hologram_sockets, one_order_shader
 
 WAYS = (Branch(0), Branch(1), Branch(1, reflected=True))
 STOCHASTIC = {"form": "table", "choice": "stochastic"}

@@ -294,7 +294,7 @@ def test_steep_places_between_those_looked_at_are_found(formula: str) -> None:
         {"kind": "even_radial", "normalization_mm": 1e-6, "coefficients": [1, 1, 1, 1, 1]},
         {
             "kind": "polynomial",
-            "normalization_mm": 1e-300,
+            "normalization_mm": 1e-17,
             "terms": [{"x": 3, "y": 0, "coefficient": 1}],
         },
     ],

@@ -56,7 +56,11 @@ BROKEN = [
     ("recording.foo", 1, "recording.foo: is not a field here (known: wavelength_nm, object,"),
     ("recording.object.foo", 1, "recording.object.foo: is not a field here (known: kind, pos"),
     ("schema", ..., "schema: is missing"),
-    ("schema", 2, "schema: must be 1, the version of this program, got 2"),
+    (
+        "schema",
+        2,
+        "schema: must be at most 1, the newest that this add-on knows (update it), got 2",
+    ),
     ("schema", "1", 'schema: must be 1, the version of this program, got "1"'),
     ("schema", True, "schema: must be 1, the version of this program, got true"),
     ("name", "", 'name: must not be empty, got ""'),

@@ -15,12 +15,7 @@ from hoe_addon.model.document import device_from, load_device, picture_paths, to
 from hoe_addon.model.scene import SceneSpec
 from hoe_addon.model.scene_parts import LampElement
 from hoe_addon.model.scene_spectra import IlluminantSpec, LampLine, LinesSpec
-from hoe_addon.model.scene_view import (
-    gaze_direction,
-    gaze_of,
-    image_distance_mm,
-    rotation_of,
-)
+from hoe_addon.model.scene_view import gaze_direction, gaze_of, image_distance_mm, rotation_of
 from hoe_addon.resources import preset_paths
 
 RAINBOW = "grating_rainbow"
@@ -41,8 +36,20 @@ def test_presets_are_scenes_that_write_themselves_back(name: str) -> None:
     assert device_from(to_document(spec)) == spec
 
 
+def test_scene_without_elements_is_one() -> None:
+    """Such is a scene of a window that holds only an eye and things that documents do not know."""
+    assert scene("compact_disc", "elements=[]").elements == ()
+
+
+def test_too_many_elements_are_refused() -> None:
+    document = to_document(scene("compact_disc"))
+    block = next(each for each in document["elements"] if each["kind"] == "block")
+    document["elements"] = [block | {"name": f"block {k}"} for k in range(201)]
+    with pytest.raises(SpecError, match=r"elements: must hold at most 200 elements, got 201"):
+        device_from(document)
+
+
 BROKEN = [
-    ("elements=[]", "elements: must hold 1 to 200 elements, got 0"),
     ("elements.lamp.name=frame", 'elements[2].name: must be used once, got "frame"'),
     ("elements.lamp.kind=torch", "elements[2].kind: must be one of "),
     ("elements.lamp.shape=cube", "elements[2].shape: must be one of disc, line, rectangle, sph"),

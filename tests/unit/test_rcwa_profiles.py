@@ -10,14 +10,7 @@ import pytest
 from hoe_addon.core.errors import SpecError
 from hoe_addon.core.rcwa import Lamellar, Layer, Polygon, Uniform, polygon_layers, volume_layers
 from hoe_addon.core.rcwa.crossing import check_simple
-from hoe_addon.core.rcwa.reliefs import (
-    binary,
-    sampled,
-    sinusoid,
-    staircase,
-    trapezoid,
-    triangle,
-)
+from hoe_addon.core.rcwa.reliefs import binary, sampled, sinusoid, staircase, trapezoid, triangle
 
 EXACT = 1e-12
 

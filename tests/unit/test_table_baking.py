@@ -14,7 +14,7 @@ import pytest
 from hoe_addon.core.efficiency import Incidence, Polarization
 from hoe_addon.core.efficiency.baking import bake
 from hoe_addon.core.efficiency.node_source import NodeSource, backward_source
-from hoe_addon.core.errors import CancelledError, SpecError
+from hoe_addon.core.errors import CancelledError, NotMadeError, SpecError
 from hoe_addon.core.orders import Branch
 from hoe_addon.model.document import hologram_from
 from hoe_addon.model.hologram import HologramSpec
@@ -355,11 +355,29 @@ def test_a_damaged_file_is_made_anew(own_cache: Path, monkeypatch: pytest.Monkey
     assert [item.suffix for item in own_cache.iterdir()] == [".exr"]
 
 
-@pytest.mark.usefixtures("own_cache")
-def test_work_on_the_cache_can_be_stopped(tmp_path: Path) -> None:
+def test_work_on_the_cache_can_be_stopped_and_goes_on(own_cache: Path) -> None:
+    spec = hologram()
     with pytest.raises(CancelledError):
-        kept_table(hologram(), progress=Stop(2))
-    assert not [path for path in (tmp_path / "cache").rglob("*") if path.is_file()]
+        kept_table(spec, progress=Stop(2))
+    (left,) = own_cache.iterdir()
+    assert left.name.endswith(".part.npz")
+    steps: list[float] = []
+    kept_table(spec, progress=steps.append)
+    assert [path.suffix for path in own_cache.iterdir()] == [".exr"]
+    for path in own_cache.iterdir():
+        path.unlink()
+    whole: list[float] = []
+    kept_table(spec, progress=whole.append)
+    assert 0 < len(steps) < len(whole)
+
+
+def test_a_table_that_is_not_to_be_made(own_cache: Path) -> None:
+    spec = hologram(efficiency=CONSTANT)
+    with pytest.raises(NotMadeError, match=r"efficiency: needs its table, .* press Bake"):
+        kept_table(spec, make=False)
+    assert not list(own_cache.iterdir())
+    made = kept_table(spec)
+    assert np.array_equal(kept_table(spec, make=False).table.values, made.table.values)
 
 
 @pytest.mark.usefixtures("own_cache")

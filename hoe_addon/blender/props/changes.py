@@ -1,27 +1,32 @@
 # SPDX-FileCopyrightText: hoe_addon contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which materials have changed since their shaders were last brought up to date.
+"""Which materials, objects and scenes have changed since what hangs on them was brought up to date.
 
-A property's update callback only notes the material and starts one timer, however many properties
+A property's update callback only notes the datablock and starts one timer, however many properties
 change before it runs. Blender runs no timers in background mode: scripts ask for a refresh there.
 """
 
 import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 import bpy
+
+type Listener = Callable[[frozenset[int]], None]
+"""Told the session ids of all datablocks that have changed."""
 
 
 class _State:
     """What is noted; one for the process."""
 
     changed: set[int]
-    listener: Callable[[], None] | None
+    seen_to: set[int]
+    listeners: list[Listener]
     quiet: int
 
     def __init__(self) -> None:
         self.changed = set()
-        self.listener = None
+        self.seen_to = set()
+        self.listeners = []
         self.quiet = 0
 
 
@@ -29,18 +34,30 @@ _state = _State()
 
 
 def mark(group: bpy.types.PropertyGroup, _context: bpy.types.Context | None = None) -> None:
-    """Note that a property of a material has changed; the ``update`` of every property.
+    """Note that a property of a datablock has changed; the ``update`` of every property.
 
     Args:
         group: Group that holds the property.
     """
-    if _state.quiet:
-        return
-    # Not the material itself: it may be gone, or moved by an undo, when the timer runs.
-    _state.changed.add(group.id_data.session_uid)
-    listener = _state.listener
-    if listener is not None and not bpy.app.timers.is_registered(listener):
-        bpy.app.timers.register(listener, first_interval=0.0)
+    if not _state.quiet:
+        mark_block(group.id_data)
+
+
+def mark_block(block: bpy.types.ID) -> None:
+    """Note that a datablock has changed.
+
+    Args:
+        block: The datablock.
+    """
+    # Not the datablock itself: it may be gone, or moved by an undo, when the timer runs.
+    _state.changed.add(block.session_uid)
+    if _state.listeners and not is_waiting():
+        bpy.app.timers.register(_tell, first_interval=0.0)
+
+
+def is_waiting() -> bool:
+    """Whether a timer will tell the listeners soon."""
+    return bpy.app.timers.is_registered(_tell)
 
 
 @contextlib.contextmanager
@@ -53,37 +70,67 @@ def unmarked() -> Iterator[None]:
         _state.quiet -= 1
 
 
-def taken() -> Iterator[bpy.types.Material]:
-    """The materials that have changed; each is forgotten as it is given."""
-    for material in list(bpy.data.materials):
-        if material.session_uid in _state.changed:
-            _state.changed.discard(material.session_uid)
-            yield material
-    _state.changed.clear()
-
-
-def forget(material: bpy.types.Material) -> None:
-    """Note that a material is up to date.
+def taken[B: bpy.types.ID](blocks: Iterable[B]) -> Iterator[B]:
+    """Those of some datablocks that have changed; each is forgotten as it is given.
 
     Args:
-        material: The material.
+        blocks: All that are looked at, such as ``bpy.data.materials``.
     """
-    _state.changed.discard(material.session_uid)
+    for block in list(blocks):
+        if block.session_uid in _state.changed:
+            forget(block)
+            yield block
 
 
-def listen(listener: Callable[[], None]) -> None:
-    """Call this soon after a change.
+def is_changed(block: bpy.types.ID) -> bool:
+    """Tell whether a datablock has changed since it was brought up to date.
 
     Args:
-        listener: Called once, by a timer, for any number of changes.
+        block: The datablock.
     """
-    _state.listener = listener
+    return block.session_uid in _state.changed
 
 
-def stop() -> None:
-    """Call nothing any more, and forget what has changed."""
-    listener = _state.listener
-    if listener is not None and bpy.app.timers.is_registered(listener):
-        bpy.app.timers.unregister(listener)
-    _state.listener = None
-    _state.changed.clear()
+def forget(block: bpy.types.ID) -> None:
+    """Note that a datablock is up to date; listeners are told all the same that it changed.
+
+    Args:
+        block: The datablock.
+    """
+    if block.session_uid in _state.changed:
+        _state.changed.discard(block.session_uid)
+        _state.seen_to.add(block.session_uid)
+
+
+def listen(listener: Listener) -> None:
+    """Call this soon after a change, once for any number of changes.
+
+    Args:
+        listener: Called by a timer, after those that listened before it.
+    """
+    _state.listeners.append(listener)
+
+
+def stop(listener: Listener) -> None:
+    """Call a listener no more; when it was the last one, forget what has changed.
+
+    Args:
+        listener: What ``listen`` got.
+    """
+    _state.listeners.remove(listener)
+    if not _state.listeners:
+        if is_waiting():
+            bpy.app.timers.unregister(_tell)
+        _state.changed.clear()
+        _state.seen_to.clear()
+
+
+def _tell() -> None:
+    """Tell all listeners; what changes meanwhile is told them by the next timer."""
+    batch = frozenset(_state.changed | _state.seen_to)
+    try:
+        for listener in list(_state.listeners):
+            listener(batch)
+    finally:
+        _state.changed -= batch
+        _state.seen_to.clear()

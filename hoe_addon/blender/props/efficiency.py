@@ -25,6 +25,7 @@ from ..ids import EfficiencyModel, Side
 from ..registration import class_registrars
 from . import details
 from .changes import mark
+from .efficiency_fields import EfficiencyFields
 from .medium import HOE_PG_medium
 from .recording import WAVELENGTH_LIMITS
 from .values import number, reset, rounded_down, store
@@ -77,7 +78,7 @@ class HOE_PG_share(bpy.types.PropertyGroup):
     )
 
 
-class HOE_PG_efficiency(bpy.types.PropertyGroup):
+class HOE_PG_efficiency(EfficiencyFields, bpy.types.PropertyGroup):
     """How the light is shared; only the fields of the model count."""
 
     model: EnumProperty(

@@ -20,14 +20,17 @@ from ...model.document import SCHEMA
 from ..ids import CharacteristicKind, Outline, PatternKind, Shape
 from ..registration import class_registrars
 from . import details
+from .beginning import begin
 from .changes import mark
+from .detail_fitting import function_changed, surface_changed
 from .efficiency import ORDER_LIMITS, HOE_PG_efficiency
 from .medium import HOE_PG_media
+from .pattern_fields import FunctionFields, SurfaceFields
 from .recording import HOE_PG_recording
 from .values import numbers, reset, store
 
 
-class HOE_PG_surface(bpy.types.PropertyGroup):
+class HOE_PG_surface(SurfaceFields, bpy.types.PropertyGroup):
     """The shape of the element; other shapes than a plane are kept as text."""
 
     shape: EnumProperty(
@@ -35,7 +38,7 @@ class HOE_PG_surface(bpy.types.PropertyGroup):
         description="Shape of the surface",
         items=Shape.items(),
         default=Shape.PLANE,
-        update=mark,
+        update=surface_changed,
     )
 
     size_mm: FloatVectorProperty(
@@ -91,7 +94,7 @@ class HOE_PG_surface(bpy.types.PropertyGroup):
         self.outline = document["outline"]
 
 
-class HOE_PG_characteristic(bpy.types.PropertyGroup):
+class HOE_PG_characteristic(FunctionFields, bpy.types.PropertyGroup):
     """A characteristic function given outright."""
 
     kind: EnumProperty(
@@ -99,7 +102,7 @@ class HOE_PG_characteristic(bpy.types.PropertyGroup):
         description="Kind of characteristic function",
         items=CharacteristicKind.items(),
         default=CharacteristicKind.LINEAR,
-        update=mark,
+        update=function_changed,
     )
     details: StringProperty(
         name="Details",
@@ -166,8 +169,9 @@ class HOE_PG_order(bpy.types.PropertyGroup):
 
 def _enable(group: "HOE_PG_hologram", context: bpy.types.Context) -> None:
     # Stored with the file, so that a later version knows how to read the rest.
-    if not group.is_property_set("schema"):
+    if group.enabled and not group.is_property_set("schema"):
         group.schema = SCHEMA
+        begin(group)
     mark(group, context)
 
 
@@ -191,6 +195,20 @@ class HOE_PG_hologram(bpy.types.PropertyGroup):
         name="Problem",
         description="Why the shader could not be made from these properties; empty when it could",
         options={"HIDDEN"},
+        override=set(),
+    )
+    needs_bake: BoolProperty(
+        name="Needs Bake",
+        description="Whether a map or a table has to be made before the shader can be",
+        default=False,
+        options={"HIDDEN"},
+        override=set(),
+    )
+    made_of: StringProperty(
+        name="Made of",
+        description="Hash of the properties that the shader was made from",
+        options={"HIDDEN"},
+        override=set(),
     )
     units_per_mm: FloatProperty(
         name="Units per mm",

@@ -11,7 +11,10 @@ from .hologram import HOE_PG_hologram
 def register() -> None:
     """Add ``Material.hologram``."""
     bpy.types.Material.hologram = PointerProperty(
-        name="Hologram", description="Hologram on this material", type=HOE_PG_hologram
+        name="Hologram",
+        description="Hologram on this material",
+        type=HOE_PG_hologram,
+        override={"LIBRARY_OVERRIDABLE"},
     )
 
 

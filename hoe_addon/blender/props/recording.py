@@ -23,7 +23,9 @@ from ..ids import Beam, WaveKind
 from ..registration import class_registrars
 from . import details
 from .changes import mark
+from .detail_fitting import wave_changed
 from .values import number, numbers, reset, store
+from .wave_fields import WaveFields, swatch
 
 WAVELENGTH_LIMITS = {
     "min": WAVELENGTH_RANGE_NM[0],
@@ -36,7 +38,7 @@ WAVELENGTH_LIMITS = {
 """Limits, slider range and digits of every wavelength in nm."""
 
 
-class HOE_PG_wave(bpy.types.PropertyGroup):
+class HOE_PG_wave(WaveFields, bpy.types.PropertyGroup):
     """One recording wave; only the fields of its kind count."""
 
     kind: EnumProperty(
@@ -44,7 +46,7 @@ class HOE_PG_wave(bpy.types.PropertyGroup):
         description="Kind of recording wave",
         items=WaveKind.items(),
         default=WaveKind.PLANE,
-        update=mark,
+        update=wave_changed,
     )
     direction: FloatVectorProperty(
         name="Direction",
@@ -149,6 +151,7 @@ class HOE_PG_recording(bpy.types.PropertyGroup):
         update=mark,
         **WAVELENGTH_LIMITS,
     )
+    colour: swatch("wavelength_nm")
     object: PointerProperty(
         name="Object Wave", description="The wave that order +1 gives back", type=HOE_PG_wave
     )

@@ -16,7 +16,8 @@ from bpy.app.handlers import persistent
 from ...core.errors import HoeError
 from ...shading.following import FRAME_SOCKETS, ROLES, frame_socket
 from ..ids import PatternKind
-from .sync import hologram_node, out_of_scene, read_followed
+from .followed import out_of_scene, read_followed
+from .shader_node import hologram_node
 
 _EVENTS = ("depsgraph_update_post", "frame_change_post", "load_post")
 
@@ -59,7 +60,11 @@ def _watch(*_arguments: object) -> None:
 def _following() -> Iterator[tuple[bpy.types.Material, str, bpy.types.PropertyGroup]]:
     for material in bpy.data.materials:
         hologram = material.hologram
-        if hologram.enabled and hologram.pattern == PatternKind.RECORDING:
+        if (
+            hologram.enabled
+            and material.library is None
+            and hologram.pattern == PatternKind.RECORDING
+        ):
             for role in ROLES:
                 group = getattr(hologram.recording, role)
                 if group.follows:

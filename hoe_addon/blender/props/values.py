@@ -118,4 +118,22 @@ def reset(group: bpy.types.PropertyGroup) -> None:
             group.property_unset(prop.identifier)
 
 
+def make_whole(group: bpy.types.PropertyGroup) -> None:
+    """Let a file hold all groups inside a group, also those where all is as by default.
+
+    Blender makes a group when it is first asked for, and can override a property of a linked file
+    only where that file holds its group.
+
+    Args:
+        group: The outermost group.
+    """
+    for prop in group.bl_rna.properties:
+        if prop.type == "POINTER" and _is_group(prop.fixed_type):
+            make_whole(getattr(group, prop.identifier))
+
+
+def _is_group(kind: bpy.types.Struct) -> bool:
+    return kind.base is not None and kind.base.identifier == "PropertyGroup"
+
+
 _OWN_OF_BLENDER = ("rna_type", "name")

@@ -17,15 +17,7 @@ from .halfspace import HalfSpace
 from .light import PlaneWaves, Solution
 from .modes import LseModes, LsmModes, conical_modes, lse_modes, lsm_modes
 from .runs import Kept, Run, equal_runs
-from .scattering import (
-    Channel,
-    Reference,
-    Scatter,
-    layer_scatter,
-    repeated,
-    star,
-    uniform_scatter,
-)
+from .scattering import Channel, Reference, Scatter, layer_scatter, repeated, star, uniform_scatter
 from .stack import Layer, Pattern, Repeat, Stack, Uniform
 
 type Progress = Callable[[float], None]

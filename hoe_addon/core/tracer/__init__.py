@@ -8,15 +8,7 @@ them back. `walk_tree` finds the surfaces itself and splits each ray into all it
 
 from .geometry import Aperture, Circle, Frame, Rays, Rectangle
 from .sequence import SequenceWalk, Step, walk_sequence, walk_sequence_backward
-from .surfaces import (
-    Absorber,
-    Dielectric,
-    Grating,
-    IdealLens,
-    Mirror,
-    PlanarSurface,
-    Receiver,
-)
+from .surfaces import Absorber, Dielectric, Grating, IdealLens, Mirror, PlanarSurface, Receiver
 from .tree import EnergyBalance, Landed, TreeWalk, walk_tree
 
 __all__ = [

@@ -10,6 +10,8 @@ import OpenImageIO as oiio  # noqa: N813  (the name that its own documentation u
 
 from ...core.arrays import FloatArray
 from ...core.errors import SpecError
+from ..image_file import read_exr_pixels
+from ..npy import read_npy
 from ..reading import read_text
 
 FEWEST, MOST = 4, 8192
@@ -65,7 +67,7 @@ def _read(file: str, _time: int, _size: int) -> FloatArray:
     path = Path(file)
     match path.suffix.lower():
         case ".npy":
-            values = _read_npy(path)
+            values = read_npy(path, _check_shape)
         case ".csv":
             values = _read_csv(path)
         case _:
@@ -88,35 +90,22 @@ def _check_size(rows: int, columns: int) -> None:
         )
 
 
-def _read_npy(path: Path) -> FloatArray:
-    try:
-        # Mapped, so that the size is known before anything is read; objects cannot be mapped.
-        mapped = np.lib.format.open_memmap(path, mode="r")
-    except (OSError, ValueError, EOFError, OverflowError) as error:
-        raise SpecError(f"is no readable .npy file ({_reason(error)})") from error
-    if mapped.dtype.kind not in "fiu":
-        raise SpecError(f"must hold real numbers, not {mapped.dtype}")
-    if mapped.ndim != 2:
-        raise SpecError(f"must have two dimensions, not the shape {mapped.shape}")
-    _check_size(*mapped.shape)
-    return np.array(mapped, dtype=np.float64)
+def _check_shape(shape: tuple[int, ...]) -> None:
+    if len(shape) != 2:
+        raise SpecError(f"must have two dimensions, not the shape {shape}")
+    _check_size(*shape)
 
 
 def _read_exr(path: Path) -> FloatArray:
-    picture = oiio.ImageInput.open(str(path))
-    if picture is None:
-        raise SpecError(f"is no readable .exr file ({_one_line(oiio.geterror())})")
-    try:
-        spec = picture.spec()
-        _check_size(spec.height, spec.width)
-        if spec.nchannels != 1:
-            raise SpecError(f"must have one channel, not {spec.nchannels}")
-        pixels = picture.read_image(0, 0, 0, 1, oiio.FLOAT)
-        if pixels is None:
-            raise SpecError(f"is no readable .exr file ({_one_line(picture.geterror())})")
-    finally:
-        picture.close()
-    return np.asarray(pixels, dtype=np.float64).reshape(spec.height, spec.width)
+    pixels, _ = read_exr_pixels(path, _check_picture)
+    with np.errstate(invalid="ignore"):  # a signalling NaN becomes a quiet one
+        return pixels[..., 0].astype(np.float64)
+
+
+def _check_picture(spec: "oiio.ImageSpec") -> None:
+    _check_size(spec.height, spec.width)
+    if spec.nchannels != 1:
+        raise SpecError(f"must have one channel, not {spec.nchannels}")
 
 
 def _read_csv(path: Path) -> FloatArray:
@@ -148,8 +137,4 @@ def _number(cell: str, row: int, column: int) -> float:
 
 def _reason(error: Exception) -> str:
     reason = error.strerror if isinstance(error, OSError) else None
-    return _one_line(reason or str(error) or type(error).__name__)
-
-
-def _one_line(text: str) -> str:
-    return " ".join(text.split())[:120]
+    return reason or str(error) or type(error).__name__

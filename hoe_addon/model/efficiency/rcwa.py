@@ -18,13 +18,7 @@ from .common import CommonFields
 from .lists import structs
 from .optical_index import OpticalIndex
 from .rcwa_layers import DEEPEST_UM
-from .rcwa_profile import (
-    PROFILES,
-    RELIEFS,
-    ProfileSpec,
-    SlantedProfile,
-    VolumeProfile,
-)
+from .rcwa_profile import PROFILES, RELIEFS, ProfileSpec, SlantedProfile, VolumeProfile
 from .rcwa_stack import materials_from, most_harmonics, stack_from
 
 AUTO = "auto"

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ...core.errors import SpecError
+from ..npy import read_npy
 from ..reading import read_text
 
 FEWEST, MOST = 2, 4096
@@ -49,7 +50,7 @@ def read_heights(file: str) -> FloatArray:
 @lru_cache(maxsize=8)
 def _read(file: str, _time: int, _size: int) -> FloatArray:
     path = Path(file)
-    values = _from_npy(path) if path.suffix.lower() == ".npy" else _from_text(path)
+    values = read_npy(path, _check_shape) if path.suffix.lower() == ".npy" else _from_text(path)
     _check_count(len(values))
     # A comparison with NaN is false.
     bad = ~(np.abs(values) <= LARGEST)
@@ -66,19 +67,10 @@ def _check_count(count: int) -> None:
         raise SpecError(f"must hold {FEWEST} to {MOST} heights, not {count}")
 
 
-def _from_npy(path: Path) -> FloatArray:
-    try:
-        # Mapped, so that the size is known before anything is read; objects cannot be mapped.
-        mapped = np.lib.format.open_memmap(path, mode="r")
-    except (OSError, ValueError, EOFError, OverflowError) as error:
-        reason = " ".join(str(error).split())[:120]
-        raise SpecError(f"is no readable .npy file ({reason})") from error
-    if mapped.dtype.kind not in "fiu":
-        raise SpecError(f"must hold real numbers, not {mapped.dtype}")
-    if mapped.ndim != 1:
-        raise SpecError(f"must have one dimension, not the shape {mapped.shape}")
-    _check_count(len(mapped))
-    return np.array(mapped, dtype=np.float64)
+def _check_shape(shape: tuple[int, ...]) -> None:
+    if len(shape) != 1:
+        raise SpecError(f"must have one dimension, not the shape {shape}")
+    _check_count(shape[0])
 
 
 def _from_text(path: Path) -> FloatArray:

@@ -13,7 +13,7 @@ from ...core.efficiency.baked import BakedTable
 from ...core.efficiency.baking import LARGEST
 from ...core.efficiency.table import EfficiencyTable
 from ...core.efficiency.table_check import SIDES
-from ...core.errors import SpecError
+from ...core.errors import NotMadeError, SpecError
 from ...files import replacing
 from ..efficiency import TableSpec
 from ..efficiency.common import LookupSpec
@@ -74,9 +74,11 @@ def table_for(
     progress: Progress | None = None,
     backward: bool = True,
     folder: Path | None = None,
+    *,
+    make: bool = True,
 ) -> EfficiencyTable:
     """Give the table of a hologram; see `kept_table`."""
-    return kept_table(spec, progress, backward, folder).table
+    return kept_table(spec, progress, backward, folder, make=make).table
 
 
 def kept_table(
@@ -84,22 +86,26 @@ def kept_table(
     progress: Progress | None = None,
     backward: bool = True,
     folder: Path | None = None,
+    *,
+    make: bool = True,
 ) -> KeptTable:
     """Give the table of a hologram with its error, from the cache where it is there.
 
     Args:
         spec: The hologram; the tolerance is that of its look-up.
         progress: Told the share that is done, where it has to be made; what it raises, such as
-            `CancelledError`, stops the work, and no file is left.
+            `CancelledError`, stops the work; the next call goes on from there.
         backward: Whether the table is for rays that are walked backward, as a picture is made:
             then each entry is the share of the light that takes the branch into the reverse of the
             walked ray.
         folder: Folder of the cache, unless the environment names one.
+        make: Whether to make the table where it is not in the cache.
 
     Returns:
         The table.
 
     Raises:
+        NotMadeError: It is not in the cache, and is not to be made.
         OutputError: The file cannot be written.
         SpecError: The model or a medium has no answer.
     """
@@ -111,16 +117,22 @@ def kept_table(
     kept = _kept(path, key)
     if kept is not None:
         return kept
+    if not make:
+        raise NotMadeError("efficiency: needs its table, which may take minutes; press Bake")
+    unfinished = path.with_suffix(".part.npz")
     table = None if backward else _own_table(spec)
     notes: dict[str, object] = dict.fromkeys(_NOTES, 0.0)
     if table is None:
-        made = bake_hologram(spec, tolerance, within, backward=backward, progress=progress)
+        made = bake_hologram(
+            spec, tolerance, within, backward=backward, progress=progress, part=unfinished
+        )
         table = made.table
         notes = {name: getattr(made, name) for name in _NOTES}
         if not made.reached:
             _log.warning("%s: %s", spec.name, _shortfall(made))
     with replacing(path) as part:
         write_exr(part, table, {"key": key, **notes})
+    unfinished.unlink(missing_ok=True)
     kept = _kept(path, key)
     # What was written is what later calls get: rounded alike. Only a broken disk gives none.
     if kept is None:

@@ -24,6 +24,7 @@ from ...core.efficiency.table_check import AXES
 from ...core.errors import SpecError
 from ...core.orders import Branch
 from ...files import OutputError
+from ..image_file import read_exr_pixels
 from .edges import MOST_NUMBERS, SCHEMA
 
 WIDTH = 512
@@ -102,22 +103,15 @@ def read_exr_and_notes(path: Path) -> tuple[EfficiencyTable, dict[str, Any]]:
     Raises:
         SpecError: It is damaged, too large, or no table.
     """
-    picture = oiio.ImageInput.open(str(path))
-    if picture is None:
-        raise SpecError(f"is no readable .exr file ({_one_line(oiio.geterror())})")
-    try:
-        spec = picture.spec()
-        most = math.ceil(MOST_NUMBERS / (WIDTH * CHANNELS))
-        if spec.nchannels != CHANNELS or spec.width != WIDTH or not 1 <= spec.height <= most:
-            size = f"{spec.width} x {spec.height} texels of {spec.nchannels} channels"
-            raise SpecError(f"must be {WIDTH} texels of {CHANNELS} channels wide, got {size}")
-        text = spec.getattribute(HEADER)
-        pixels = picture.read_image(0, 0, 0, CHANNELS, oiio.FLOAT)
-        if pixels is None:
-            raise SpecError(f"is no readable .exr file ({_one_line(picture.geterror())})")
-    finally:
-        picture.close()
-    return _made(text, np.asarray(pixels, dtype=np.float32).ravel())
+    pixels, text = read_exr_pixels(path, _check_size, HEADER)
+    return _made(text, pixels.ravel())
+
+
+def _check_size(spec: "oiio.ImageSpec") -> None:
+    most = math.ceil(MOST_NUMBERS / (WIDTH * CHANNELS))
+    if spec.nchannels != CHANNELS or spec.width != WIDTH or not 1 <= spec.height <= most:
+        size = f"{spec.width} x {spec.height} texels of {spec.nchannels} channels"
+        raise SpecError(f"must be {WIDTH} texels of {CHANNELS} channels wide, got {size}")
 
 
 def _made(text: object, texels: NDArray[np.float32]) -> tuple[EfficiencyTable, dict[str, Any]]:

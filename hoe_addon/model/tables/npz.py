@@ -2,24 +2,29 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables as .npz archives of named arrays: objects are refused, and sizes looked at first."""
 
-import io
-import math
 import zipfile
 import zlib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.efficiency.table import EfficiencyTable
 from ...core.errors import SpecError
-from .edges import MOST_BYTES, NAMES, SCHEMA, FileTable, default_axis, from_core, to_core
+from ..npy import NpyHeader
+from .edges import MOST_NUMBERS, NAMES, SCHEMA, FileTable, default_axis, from_core, to_core
 
 _NEEDED = ("order", "side", "efficiency")
 _KNOWN = {*NAMES, *_NEEDED, "schema", "incidence", "frequency", "beyond"}
 _DIMENSIONS = 7
+_MOST_UNPACKED = 8 * MOST_NUMBERS + 2**20
+"""Bytes of all arrays: the shares, and room for the rest."""
+
+_PACKED = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+"""What numpy writes; other ways to pack fail in ways of their own."""
+
 _DAMAGED = (
     OSError,
     ValueError,
@@ -27,8 +32,6 @@ _DAMAGED = (
     OverflowError,
     NotImplementedError,
     RuntimeError,
-    MemoryError,
-    SyntaxError,
     zipfile.BadZipFile,
     zlib.error,
 )
@@ -125,8 +128,10 @@ def read_arrays(path: Path, known: set[str]) -> dict[str, NDArray[np.generic]]:
             if len(set(names)) < len(names) or not set(names) <= known:
                 odd = next((name for name in names if name not in known), names[-1])
                 raise SpecError(f"holds an array that is not known or doubled: {ascii(odd)[:40]}")
-            if sum(member.file_size for member in members) > MOST_BYTES:
-                raise SpecError(f"must hold at most {MOST_BYTES // 2**20} MB")
+            if any(member.compress_type not in _PACKED for member in members):
+                raise SpecError("must be packed as numpy does it, or not at all")
+            if sum(member.file_size for member in members) > _MOST_UNPACKED:
+                raise SpecError(f"must hold at most {_MOST_UNPACKED // 2**20} MB unpacked")
             for name, member in zip(names, members, strict=True):
                 found[name] = _read(archive, member, name)
     except _DAMAGED as error:
@@ -136,20 +141,21 @@ def read_arrays(path: Path, known: set[str]) -> dict[str, NDArray[np.generic]]:
 
 
 def _read(archive: zipfile.ZipFile, member: zipfile.ZipInfo, name: str) -> NDArray[np.generic]:
-    # No more than the size that was looked at is unpacked.
-    stream = io.BytesIO(archive.read(member))
-    version = np.lib.format.read_magic(stream)
-    if version == (1, 0):
-        shape, by_columns, dtype = np.lib.format.read_array_header_1_0(stream)
-    else:
-        shape, by_columns, dtype = np.lib.format.read_array_header_2_0(stream)
-    if dtype.kind not in "fiuU":
-        raise SpecError(f"{name}: must hold numbers or words, not {dtype}")
-    data = stream.read()
-    count = math.prod(shape)
-    if count * dtype.itemsize != len(data) or len(shape) > _DIMENSIONS or dtype.itemsize == 0:
-        raise SpecError(f"{name}: must have as many entries as its shape says, got {shape}")
-    return np.frombuffer(data, dtype).reshape(shape, order="F" if by_columns else "C")
+    with archive.open(member) as stream:
+        try:
+            return _array(stream)
+        except SpecError as error:
+            raise SpecError(f"{name}: {error}") from error
+
+
+def _array(stream: IO[bytes]) -> NDArray[np.generic]:
+    header = NpyHeader.read(stream)
+    if header.dtype.kind not in "fiuU":
+        raise SpecError(f"must hold numbers or words, not {header.dtype}")
+    if header.size > _MOST_UNPACKED:
+        raise SpecError(f"must hold at most {MOST_NUMBERS} numbers, got {header.shape}")
+    # No more than was asked for is unpacked, and one byte that must not be there.
+    return header.array(stream.read(header.size + 1))
 
 
 def _numbers(

@@ -10,14 +10,7 @@ import numpy as np
 from ...core.arrays import FloatArray, IntArray
 from ...core.efficiency.table_check import SIDES
 from ...core.errors import SpecError
-from .edges import (
-    MOST_NUMBERS,
-    NAMES,
-    FileTable,
-    check_frequency,
-    check_nodes,
-    check_order,
-)
+from .edges import MOST_NUMBERS, NAMES, FileTable, check_frequency, check_nodes, check_order
 
 type Column = tuple[int, str, float]
 """Order, side, and grating frequency over that of the pattern."""

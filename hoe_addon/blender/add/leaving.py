@@ -1,0 +1,120 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Adding to a scene of the user's: all of it or nothing, and settings that are theirs stay."""
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import bpy
+
+from ..ids import DeviceKind
+
+_KEPT = (
+    "render.resolution_x",
+    "render.resolution_y",
+    "render.resolution_percentage",
+    "render.use_border",
+    "render.use_compositing",
+    "render.use_sequencer",
+    "render.use_multiview",
+    "cycles.samples",
+    "cycles.seed",
+    "cycles.use_animated_seed",
+    "cycles.diffuse_bounces",
+    "view_settings.view_transform",
+    "view_settings.look",
+    "view_settings.exposure",
+)
+"""What a picture looks like and where it goes; holograms work with any of it."""
+
+_UNITS = ("unit_settings.system", "unit_settings.scale_length", "unit_settings.length_unit")
+"""They stay where there is something that would change its size."""
+
+_SET = (
+    "render.engine",
+    "render.use_motion_blur",
+    "render.motion_blur_shutter",
+    "render.motion_blur_position",
+    "render.pixel_aspect_x",
+    "render.pixel_aspect_y",
+    "cycles.shading_system",
+    "cycles.use_adaptive_sampling",
+    "cycles.time_limit",
+    "cycles.use_denoising",
+    "cycles.sample_clamp_direct",
+    "cycles.sample_clamp_indirect",
+    "cycles.blur_glossy",
+    "cycles.light_sampling_threshold",
+    "cycles.use_light_tree",
+    "cycles.transparent_max_bounces",
+    "cycles.min_transparent_bounces",
+    "cycles.rolling_shutter_type",
+    "cycles.film_exposure",
+)
+"""What holograms need at a certain value."""
+
+
+@contextmanager
+def all_or_nothing() -> Iterator[None]:
+    """Take away every datablock that was made, should the work fail."""
+    before = {block.session_uid for block in _blocks()}
+    try:
+        yield
+    except BaseException:
+        bpy.data.batch_remove([each for each in _blocks() if each.session_uid not in before])
+        raise
+
+
+@contextmanager
+def guest_of(scene: bpy.types.Scene) -> Iterator[list[str]]:
+    """Add to a scene: its own settings stay, and all is as it was should the work fail.
+
+    Units stay too, unless the scene is empty.
+
+    Args:
+        scene: The user's scene.
+
+    Yields:
+        A list; at the end it has the names of the render settings that were changed.
+    """
+    camera, kind = scene.camera, scene.hologram.kind
+    kept = (*_KEPT, *_UNITS) if scene.objects else _KEPT
+    before = {path: _get(scene, path) for path in (*_KEPT, *_UNITS, *_SET)}
+    told: list[str] = []
+    try:
+        with all_or_nothing():
+            yield told
+    except BaseException:
+        _restore(scene, before, before)
+        scene.camera = camera
+        if kind == DeviceKind.NONE:
+            scene.property_unset("hologram")
+        raise
+    _restore(scene, before, kept)
+    if camera is not None:
+        scene.camera = camera
+    told += [_label(scene, path) for path in _SET if _get(scene, path) != before[path]]
+
+
+def _blocks() -> Iterator[bpy.types.ID]:
+    for prop in bpy.data.bl_rna.properties:
+        if prop.type == "COLLECTION":
+            yield from getattr(bpy.data, prop.identifier)
+
+
+def _restore(scene: bpy.types.Scene, values: dict[str, Any], paths: Iterable[str]) -> None:
+    for path in paths:
+        group, field = path.split(".")
+        if _get(scene, path) != values[path]:
+            setattr(getattr(scene, group), field, values[path])
+
+
+def _get(scene: bpy.types.Scene, path: str) -> Any:
+    group, field = path.split(".")
+    return getattr(getattr(scene, group), field)
+
+
+def _label(scene: bpy.types.Scene, path: str) -> str:
+    group, field = path.split(".")
+    return getattr(scene, group).bl_rna.properties[field].name

@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Add a preset: as a scene of its own, or as a device at the 3-D cursor."""
+
+from functools import cache
+
+import bpy
+from bpy.props import EnumProperty
+
+from ...blender.add.presets import add_device, add_scene
+from ...blender.registration import class_registrars
+from ...core.errors import HoeError
+from ...model.document import preset_titles
+from ..ids import Op
+from .add_placing import may_add, report_added, select
+from .add_views import look_through_camera
+
+
+@cache
+def preset_items() -> list[tuple[str, str, str, int]]:
+    """The presets as Blender's enum properties take them; a label is a title up to its colon."""
+    return [
+        (name, title.split(": ")[0], title, place)
+        for place, (name, title) in enumerate(preset_titles().items())
+    ]
+
+
+def _items(_operator: object, _context: object) -> list[tuple[str, str, str, int]]:
+    return preset_items()
+
+
+class HOE_OT_add_preset(bpy.types.Operator):
+    """Add a ready-made device."""
+
+    bl_idname = Op.ADD_PRESET
+    bl_label = "Add Preset"
+    bl_description = "Add a ready-made device"
+    bl_options = {"REGISTER", "UNDO"}
+
+    preset: EnumProperty(name="Preset", description="Which device", items=_items)
+    place: EnumProperty(
+        name="As",
+        description="What becomes of your scene",
+        items=(
+            ("SCENE", "New Scene", "A scene of its own with its room; yours stays as it is", 0),
+            ("DEVICE", "Device at Cursor", "Without its room, in your scene", 1),
+        ),
+        default="SCENE",
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return may_add(cls, context)
+
+    @classmethod
+    def description(cls, context, properties):
+        """The title of the preset, and where it comes."""
+        del context
+        title = preset_titles()[properties.preset]
+        if properties.place == "SCENE":
+            return f"{title}. Opens as a new scene; yours stays as it is"
+        return f"{title}. Without its room, the eye at the 3D cursor, 1 unit for 1 mm"
+
+    def execute(self, context):
+        try:
+            if self.place == "SCENE":
+                self._add_scene(context)
+            else:
+                self._add_device(context)
+        except HoeError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+    def _add_scene(self, context: bpy.types.Context) -> None:
+        before = context.scene.name
+        scene = add_scene(self.preset)
+        if context.window is not None:
+            context.window.scene = scene
+            look_through_camera(context.window)
+        self.report({"INFO"}, f"{scene.name}: opened as a new scene; {before} is as it was")
+
+    def _add_device(self, context: bpy.types.Context) -> None:
+        scene = context.scene
+        added = add_device(scene, self.preset, scene.cursor.location)
+        select(context, added.root)
+        camera = "its eye is the camera now"
+        if added.kept_camera is not None:
+            camera = f"the camera is still {added.kept_camera.name}, its eye is {added.eye.name}"
+        report_added(self, scene, self.preset, added.settings, camera)
+
+
+register, unregister = class_registrars((HOE_OT_add_preset,))

@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Holograms of a light guide, and the view through the eye."""
+
+import bpy
+from bpy.props import EnumProperty
+
+from ...blender.build.looking import look_through_eye
+from ...blender.document.patches import Purpose, add_patch, remove_patch
+from ...blender.ids import DeviceKind
+from ...blender.registration import class_registrars
+from ...core.errors import HoeError
+from ..ids import Op
+
+
+class _OfLightGuide:
+    """Common part: there is a light guide."""
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if context.scene is None or context.scene.hologram.kind != DeviceKind.LIGHT_GUIDE:
+            cls.poll_message_set("This scene has no light guide; add one with Add > Hologram")
+            return False
+        return True
+
+
+class HOE_OT_add_patch(_OfLightGuide, bpy.types.Operator):
+    """Add a hologram to the plate."""
+
+    bl_idname = Op.ADD_PATCH
+    bl_label = "Add Hologram to Plate"
+    bl_description = (
+        "Add a hologram on a free place of the plate's eye side; it has the grating of the "
+        "in-coupler, so that colours come together again"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    purpose: EnumProperty(
+        name="Purpose",
+        description="What the hologram is for",
+        items=Purpose.items(),
+        default=Purpose.OUT,
+    )
+
+    def execute(self, context):
+        try:
+            patch = add_patch(context.scene, self.purpose)
+        except HoeError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{patch.name}: added; its efficiency is in the Efficiency panel")
+        return {"FINISHED"}
+
+
+class HOE_OT_remove_patch(_OfLightGuide, bpy.types.Operator):
+    """Take a hologram off the plate."""
+
+    bl_idname = Op.REMOVE_PATCH
+    bl_label = "Remove Hologram from Plate"
+    bl_description = "Take the hologram that is chosen in the list off the plate"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        held = context.scene.hologram
+        try:
+            name = remove_patch(context.scene, held.active_patch)
+        except HoeError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{name}: removed")
+        return {"FINISHED"}
+
+
+class HOE_OT_look_through_eye(bpy.types.Operator):
+    """Look through the eye."""
+
+    bl_idname = Op.LOOK_THROUGH_EYE
+    bl_label = "Look through the Eye"
+    bl_description = "Make the eye the camera of the scene, and look through it in the 3-D view"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        if context.scene is None or context.scene.hologram.eye.camera is None:
+            cls.poll_message_set("This scene has no eye; add one with Add > Hologram > Eye")
+            return False
+        return True
+
+    def execute(self, context):
+        try:
+            look_through_eye(context.scene, _view(context))
+        except HoeError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+def _view(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
+    """The 3-D view of the click, or the largest one of its window."""
+    if isinstance(context.space_data, bpy.types.SpaceView3D):
+        return context.space_data
+    areas = context.screen.areas if context.screen is not None else ()
+    views = [area for area in areas if area.type == "VIEW_3D"]
+    if not views:
+        return None
+    return max(views, key=lambda area: area.width * area.height).spaces.active
+
+
+register, unregister = class_registrars(
+    (HOE_OT_add_patch, HOE_OT_remove_patch, HOE_OT_look_through_eye)
+)

@@ -1,0 +1,87 @@
+# SPDX-FileCopyrightText: hoe_addon contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Studies of a device: its eyebox, and what accuracy costs."""
+
+import bpy
+
+from ...blender.document.held import has_device
+from ...blender.ids import DeviceKind
+from ...blender.registration import class_registrars
+from ..facts.study import EyeboxFacts, eyebox_of
+from ..ids import Op
+from .base import SCENE, SIDEBAR, Body, panel_classes, split_layout, wrapped
+from .progress import draw_progress
+from .tables import numbers
+
+
+class Study(Body):
+    """Head of the studies; shows the one that runs."""
+
+    name = "study"
+    bl_label = "Study"
+    bl_order = 40
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return has_device(context.scene)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_progress(self.layout, context)
+
+
+class EyeboxStudy(Body):
+    """The device from a grid of pupils."""
+
+    name = "study_eyebox"
+    bl_label = "Eyebox"
+    parent = Study
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return context.scene.hologram.kind == DeviceKind.LIGHT_GUIDE
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, scene = split_layout(self.layout), context.scene
+        column = layout.column(align=True)
+        column.prop(scene.hologram.eyebox, "grid")
+        column.prop(scene.hologram.eyebox, "pitch_mm")
+        layout.operator(Op.EYEBOX, text="Look from All Positions", icon="LIGHTPROBE_VOLUME")
+        facts = eyebox_of(scene)
+        if facts is not None:
+            _draw_eyebox(layout, context, facts)
+
+
+def _draw_eyebox(
+    layout: bpy.types.UILayout, context: bpy.types.Context, facts: EyeboxFacts
+) -> None:
+    layout.label(text="Last result, white display, no other light")
+    numbers(layout, facts.lines)
+    if facts.rows:
+        layout.label(text="Mean luminance in cd/m2, as the eye moves")
+        grid = layout.box().column(align=True)
+        for row in facts.rows:
+            cells = grid.row(align=True)
+            for text in row:
+                cell = cells.row()
+                cell.alignment = "CENTER"
+                cell.label(text=text)
+    wrapped(layout, context, facts.folder, "FILE_FOLDER")
+
+
+class AccuracyStudy(Body):
+    """Error against time."""
+
+    name = "study_accuracy"
+    bl_label = "Accuracy"
+    parent = Study
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = split_layout(self.layout)
+        wrapped(layout, context, "What each setting costs in time, and what it changes.")
+        layout.operator(Op.ACCURACY, text="Measure Accuracy", icon="DRIVER_DISTANCE")
+
+
+register, unregister = class_registrars(
+    panel_classes((SIDEBAR, SCENE), (Study, EyeboxStudy, AccuracyStudy))
+)
