@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Write the gallery of all presets: picture, command, time, and a number that an example checks.
 
-Without options the page is written anew from gallery.json, the presets and what the examples expect.
-``--pictures`` renders all presets first, one by one, each by its own command in a process of its own,
-and keeps pictures and times.
+Without options the page is written anew from gallery.json, the presets and what examples expect.
+``--times`` takes a quick look at each preset first and keeps the times; ``--pictures`` renders each
+by the command of the page and keeps the pictures, which takes much longer. Each render is a process
+of its own, one after the other.
 """
 
 import argparse
@@ -32,6 +33,9 @@ TIMES: Path = HERE / "gallery.json"
 PICTURE: str = "preview.png"
 WIDTH: int = 260
 """Pixels of a picture on the page."""
+
+QUICK: tuple[str, ...] = ("--size", "320x240", "--samples", "16")
+"""Options of a quick look."""
 
 
 @dataclass(frozen=True)
@@ -107,16 +111,24 @@ def render(entry: Entry, folder: Path, options: Sequence[str] = ()) -> dict[str,
     return {"seconds": round(seconds, 1), "processor_seconds": round(used, 1)}
 
 
-def make_pictures(out: Path) -> None:
-    """Render all presets, keep their pictures beside the examples, and write the times.
+def keep_pictures(out: Path) -> None:
+    """Render all presets, and keep their pictures beside the examples.
 
     Args:
         out: Folder for all results.
     """
-    times: dict[str, dict[str, float]] = {}
     for entry in ENTRIES:
-        times[entry.preset] = render(entry, out / entry.preset)
+        render(entry, out / entry.preset)
         shutil.copy(out / entry.preset / "view.png", HERE / entry.folder / PICTURE)
+
+
+def keep_times(out: Path) -> None:
+    """Take a quick look at all presets, and keep the times.
+
+    Args:
+        out: Folder for all results.
+    """
+    times = {entry.preset: render(entry, out / entry.preset, QUICK) for entry in ENTRIES}
     write_text(TIMES, (json.dumps({"machine": machine(), "times": times}, indent=2), "\n"))
 
 
@@ -145,8 +157,8 @@ def page() -> str:
 
 
 _BETWEEN: tuple[str, ...] = (
-    "Each picture links to its example, which says more and has the limits. In Blender's window the",
-    "same presets are in Add > Hologram > Scene and Add > Hologram > Device at Cursor.",
+    "Each picture links to its example, which says more and has the limits. In Blender's window",
+    "these presets are in Add > Hologram > Scene and Add > Hologram > Device at Cursor.",
     "",
     "## More examples",
     "",
@@ -163,11 +175,13 @@ def _head(where: str) -> tuple[str, ...]:
         "",
         "## Gallery of the presets",
         "",
-        "This page is written by `python examples/gallery.py`; `--pictures` renders all of it anew.",
-        f"Times are processor time of the whole command, start included, on {where}.",
-        "Where nothing else runs, two cores need between half of it and all of it by the clock.",
+        "This page is written by `python examples/gallery.py`; `--pictures` and `--times` renew",
+        "what is on it. Times are those of a quick look, the command with",
+        f"`{' '.join(QUICK)}`: processor time with start and set-up, on {where}.",
+        "By the clock it is between half of that and all of it, where two cores have nothing else",
+        "to do. The pictures are of the whole command, 640x480 with the preset's own samples.",
         "",
-        "| Picture | Preset and command | Processor time, s | A number that the example checks |",
+        "| Picture | Preset and command | Quick look, s | A number that the example checks |",
         "|---|---|---|---|",
     )
 
@@ -210,10 +224,13 @@ def main() -> int:
     """
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--pictures", action="store_true", help="render all presets first")
+    parser.add_argument("--times", action="store_true", help="take the times of quick looks first")
     parser.add_argument("--out", type=Path, default=Path("out/gallery"))
     arguments = parser.parse_args()
     if arguments.pictures:
-        make_pictures(arguments.out.resolve())
+        keep_pictures(arguments.out.resolve())
+    if arguments.times:
+        keep_times(arguments.out.resolve())
     write_text(PAGE, (page(),))
     print(f"{PAGE}: written")
     return 0

@@ -15,7 +15,7 @@ LARGE = SCALE != "1"
 def prepare() -> None:
     """Work the plan out; the room would stand before the guide."""
     hide_room()
-    held, plans = part("blender.held"), part("ui.facts.plans")
+    held, plans = part("blender.document.held"), part("ui.facts.plans")
     plans.plan_now(scene(), held.document_of(scene()))
 
 

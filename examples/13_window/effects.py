@@ -13,7 +13,7 @@ from window import Picture, View, hide_room, part, scene, take
 def prepare() -> None:
     """Work the plan out."""
     hide_room()
-    held, plans = part("blender.held"), part("ui.facts.plans")
+    held, plans = part("blender.document.held"), part("ui.facts.plans")
     plans.plan_now(scene(), held.document_of(scene()))
 
 

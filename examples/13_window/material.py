@@ -7,7 +7,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from window import SCALE, Picture, View, hide_room, show_properties, take
+from window import SCALE, Picture, View, hide_room, scroll, show_properties, take
 
 LARGE = SCALE != "1"
 
@@ -19,14 +19,23 @@ def prepare() -> None:
         show_properties("MATERIAL")
 
 
+def later() -> None:
+    """Bring the plot into the window."""
+    if LARGE:
+        scroll("VIEW_3D", 7)
+    else:
+        scroll("PROPERTIES", 21)
+
+
 take(
     Picture(
         "point_lens",
         opened=("hologram_sidebar", "hologram_efficiency_sidebar")
         if LARGE
         else ("hologram", "hologram_recording_sidebar", "hologram_efficiency_material"),
-        view=View((0.0, 0.0, 40.0), 260.0, (70.0, 0.0, 40.0)),
+        view=View((40.0, 330.0, -20.0), 300.0, (70.0, 0.0, 35.0)),
         alone=LARGE,
         prepare=prepare,
+        later=later,
     )
 )

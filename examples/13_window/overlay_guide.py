@@ -7,7 +7,14 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from window import Picture, View, hide_room, take
+from window import Picture, View, hide_room, scene, take
+
+
+def prepare() -> None:
+    """Let the light engine be looked into."""
+    hide_room()
+    next(each for each in scene().objects if each.name == "Housing").display_type = "WIRE"
+
 
 take(
     Picture(
@@ -15,6 +22,6 @@ take(
         opened=("overlay",),
         view=View((12.0, 10.0, 0.0), 62.0, (60.0, 0.0, 25.0)),
         alone=True,
-        prepare=hide_room,
+        prepare=prepare,
     )
 )

@@ -13,7 +13,7 @@ take(
     Picture(
         "point_lens",
         opened=("overlay",),
-        view=View((0.0, 0.0, 40.0), 230.0, (65.0, 0.0, 40.0)),
+        view=View((0.0, 230.0, 0.0), 480.0, (70.0, 0.0, 65.0)),
         alone=True,
         prepare=hide_room,
     )

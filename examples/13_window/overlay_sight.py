@@ -13,7 +13,7 @@ take(
     Picture(
         "holographic_sight",
         opened=("overlay",),
-        view=View((0.0, 0.0, 30.0), 260.0, (60.0, 0.0, 35.0)),
+        view=View((0.0, 180.0, -20.0), 330.0, (68.0, 0.0, 65.0)),
         alone=True,
         prepare=hide_room,
     )

@@ -31,6 +31,8 @@ TAKER = os.environ.get("HOE_TAKER", "")
 
 THEMES = {"dark": "Blender_Dark.xml", "light": "Blender_Light.xml"}
 PREFIX = "HOE_PT_"
+PANELS = {"VIEW_3D": "UI", "PROPERTIES": "WINDOW"}
+"""Region of an editor that has the panels."""
 WAIT_S = 2.0
 """What a window of software OpenGL takes to draw everything after a step."""
 
@@ -167,6 +169,23 @@ def hide_room() -> None:
         scene().view_layers[0].layer_collection.children[room.name].hide_viewport = True
 
 
+def scroll(kind: str, steps: int) -> None:
+    """Scroll panels down, as the mouse wheel does.
+
+    Args:
+        kind: ``VIEW_3D`` for those of the sidebar, ``PROPERTIES`` for those of that editor.
+        steps: How far, in steps of the wheel.
+    """
+    if bpy.app.background:
+        return
+    window = bpy.context.window_manager.windows[0]
+    found = next(each for each in window.screen.areas if each.type == kind)
+    panels = next(each for each in found.regions if each.type == PANELS[kind])
+    with bpy.context.temp_override(window=window, area=found, region=panels):
+        for _ in range(steps):
+            bpy.ops.view2d.scroll_down()
+
+
 def show_properties(tab: str) -> None:
     """Choose a tab of the properties editor.
 
@@ -178,9 +197,9 @@ def show_properties(tab: str) -> None:
 
 
 def _open(picture: Picture) -> None:
-    bpy.ops.wm.open_mainfile(filepath=str(Path(FOLDER).resolve() / f"{picture.blend}.blend"))
     if not hasattr(bpy.types.Scene, "hologram"):
         addon_utils.enable(ADDON)
+    bpy.ops.wm.open_mainfile(filepath=str(Path(FOLDER).resolve() / f"{picture.blend}.blend"))
     preferences = bpy.context.preferences
     preferences.use_preferences_save = False
     preferences.view.show_splash = False

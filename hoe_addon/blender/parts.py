@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The modules that register something with Blender, each after those that it depends on."""
 
-from . import events
+from . import events, whole_undo
 from .document import live
 from .props import (
     device,
@@ -41,4 +41,5 @@ PARTS: tuple[Part, ...] = (
     targets,
     map_files,
     events,
+    whole_undo,
 )

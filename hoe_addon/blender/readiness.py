@@ -91,7 +91,7 @@ _FEW_SURFACES = Trouble(
 _OTHER_CAMERA = Trouble(
     "The camera is not the eye, which has the spectral filter: colours are wrong.",
     Mend.CAMERA,
-    "Look through Eye",
+    "Look through the Eye",
 )
 _NO_FILTER = Trouble(
     "The camera has no spectral filter: colours are wrong. Add an eye with Add > Hologram > Eye."

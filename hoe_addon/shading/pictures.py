@@ -127,7 +127,7 @@ def _chart(
     _frame(canvas, size, scale)
     if labelled_deg is not None:
         _ticks(canvas, labelled_deg, scale)
-        title = f"{labelled_deg[0]:.3g} x {labelled_deg[1]:.3g} DEG"
+        title = f"{labelled_deg[0]:.3G} x {labelled_deg[1]:.3G} DEG"
         text(canvas, title, (0.0, 2.8 * scale), 0.4 * scale, _ACCENT)
     _cross(canvas, scale)
     heading = stroke_font.printable(heading)[:_LONGEST_HEADING]

@@ -37,6 +37,8 @@ SLOW = {
     "11_accuracy",
     "12_laser_grating",
     "14_script",
+    "15_artist_tutorial",
+    "16_engineer_tutorial",
 }
 """About five to ten seconds even so."""
 
@@ -62,6 +64,24 @@ RESULTS = {
     "11_accuracy": {"numbers.json"},
     "12_laser_grating": {"numbers.json"},
     "14_script": {"numbers.json"},
+    "15_artist_tutorial": {"numbers.json", "pane.png", "sight.png"},
+    "16_engineer_tutorial": {
+        "accuracy",
+        "check.json",
+        "coupler.json",
+        "coupler.npz",
+        "directions.csv",
+        "eyebox",
+        "green.csv",
+        "guide.json",
+        "model.csv",
+        "numbers.json",
+        "rays.csv",
+        "shares.csv",
+        "table.csv",
+        "table.json",
+        "view",
+    },
 }
 
 
@@ -88,6 +108,22 @@ def test_example_runs_and_its_claim_holds(folder: Path, tmp_path: Path) -> None:
     assert "Traceback" not in done.stderr
     assert {path.name for path in (tmp_path / "out").iterdir()} == RESULTS[folder.name]
     assert list(tmp_path.iterdir()) == [tmp_path / "out"]
+
+
+@pytest.mark.render
+@pytest.mark.slow
+def test_pictures_of_the_gallery_are_made_by_its_script(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All of them, small."""
+    monkeypatch.setattr(sys, "path", list(sys.path))
+    gallery = runpy.run_path(str(ROOT / "examples" / "gallery.py"), run_name="gallery")
+    for entry in gallery["ENTRIES"]:
+        times = gallery["render"](
+            entry, tmp_path / entry.preset, ("--size", "32x24", "--samples", "1")
+        )
+        assert (tmp_path / entry.preset / "view.png").is_file()
+        assert times["processor_seconds"] > 0.0
 
 
 @pytest.mark.render

@@ -171,10 +171,13 @@ def test_a_scene_in_metres_is_warned_of(registered: Any, capfd: pytest.CaptureFi
     assert "1 unit counts as 1 mm, but this scene has other units" in capfd.readouterr().out
 
 
-def test_presets_are_listed_by_title(registered: Any) -> None:
+def test_presets_are_listed_by_name(registered: Any) -> None:
     titles = preset_titles()
     assert [name for name, *_ in preset_items()] == list(titles)
-    assert all(title.startswith(label) for _, label, title, _ in preset_items())
+    assert [title for _, _, title, _ in preset_items()] == list(titles.values())
+    labels = [label for _, label, _, _ in preset_items()]
+    assert labels == sorted(labels, key=str.casefold)
+    assert "Two Hologram AR" in labels
 
 
 def test_tooltips_are_words(registered: Any) -> None:

@@ -60,8 +60,20 @@ def test_nothing_selected(registered: Any) -> None:
 
 
 def test_object_without_a_hologram_offers_to_make_one(plate: Any) -> None:
-    assert Op.MAKE_HOLOGRAM in shown("").operators()
+    for place in PLACES:
+        offered = draw(getattr(bpy.types, f"HOE_PT_no_hologram_{place}"))
+        assert offered is not None
+        assert Op.MAKE_HOLOGRAM in offered.operators()
+    assert draw(bpy.types.HOE_PT_hologram_sidebar) is None
     assert draw(bpy.types.HOE_PT_hologram_recording_sidebar) is None
+
+
+def test_a_hologram_stands_right_below_the_surface(hologram: Any) -> None:
+    assert draw(bpy.types.HOE_PT_no_hologram_material) is None
+    # Blender's Surface has 0, its Line Art and Viewport Display have 10.
+    assert 0 < bpy.types.HOE_PT_hologram_material.bl_order < 10
+    # Where a material is none, most people look for something else.
+    assert bpy.types.HOE_PT_no_hologram_material.bl_order > 10
 
 
 def test_grating_in_numbers(hologram: Any) -> None:
@@ -80,7 +92,7 @@ def test_rings_have_no_lines_at_their_centre(hologram: Any) -> None:
     hologram.characteristic.lines_per_mm = 625.0
     facts = FACTS.update_now(hologram.id_data)
     assert [(line.label, line.value) for line in facts.grating] == [
-        ("At the Edge", "1.6 \N{MICRO SIGN}m")
+        ("Finest Period", "1.6 \N{MICRO SIGN}m")
     ]
 
 

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: hoe_addon contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every JSON block of the documentation is a valid document, or a valid part of one."""
+"""The documentation: JSON blocks are valid, links lead somewhere, labels are the window's."""
 
+import ast
 import copy
 import json
 import re
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -13,7 +15,7 @@ from typing import Any, get_args
 import pytest
 
 from hoe_addon.model.characteristic import CHARACTERISTICS
-from hoe_addon.model.document import device_from, hologram_from, to_document
+from hoe_addon.model.document import device_from, hologram_from, preset_titles, to_document
 from hoe_addon.model.efficiency import EFFICIENCIES
 from hoe_addon.model.scene_parts import ElementSpec
 from hoe_addon.model.surface import SURFACES
@@ -21,6 +23,23 @@ from hoe_addon.model.waves import WAVES
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
+ALL_PAGES = (*PAGES, *sorted((ROOT / "examples").rglob("*.md")))
+TUTORIALS = sorted(ROOT.glob("examples/*_tutorial/README.md"))
+BLENDERS_OWN = {
+    "Add",
+    "Edit",
+    "Face",
+    "File",
+    "General",
+    "Get Extensions",
+    "Grid",
+    "Install from Disk",
+    "Location",
+    "Mesh",
+    "New",
+    "Preferences",
+}
+"""Labels in the tutorials that Blender itself has."""
 LENS = json.loads((ROOT / "tests" / "documents" / "lens.json").read_text(encoding="utf-8"))
 FILES_NEEDED = {"sampled", "table"}
 """Kinds that name a file, which a page does not have."""
@@ -108,3 +127,73 @@ def test_python_of_the_holograms_page_runs() -> None:
         [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_the_readme_shows_the_short_script() -> None:
+    page = (ROOT / "README.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"^```python\n(.*?)^```", page, re.M | re.S)
+    script = (ROOT / "examples" / "14_script" / "script.py").read_text(encoding="utf-8")
+    lines = script.splitlines(keepends=True)
+    assert all(line.startswith("# SPDX-") for line in lines[:2])
+    assert code == "".join(lines[2:])
+    assert code.count("\n") < 20
+
+
+@pytest.mark.parametrize("page", ALL_PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_links_lead_somewhere(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    links = re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r'(?:src|href)="([^"]+)"', text)
+    missing = [
+        link
+        for link in links
+        if not link.startswith(("http", "#"))
+        and not (page.parent / link.partition("#")[0]).exists()
+    ]
+    assert not missing
+
+
+@pytest.mark.parametrize("page", ALL_PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_files_that_are_named_are_there(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    named = re.findall(r"`((?:hoe_addon|tests|osl|presets|examples|docs)/[\w./-]+)`", text)
+    assert not [name for name in named if not (ROOT / name).exists()]
+
+
+def window_labels() -> set[str]:
+    """All texts in the code of the window, and the presets, but for initials in capitals."""
+    folders = (ROOT / "hoe_addon" / "ui", ROOT / "hoe_addon" / "blender")
+    found = {
+        node.value
+        for folder in folders
+        for path in folder.rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    }
+    return found | {name.replace("_", " ").title() for name in preset_titles()}
+
+
+@pytest.mark.parametrize("page", TUTORIALS, ids=lambda page: page.parent.name)
+def test_labels_of_the_tutorials_are_those_of_the_window(page: Path) -> None:
+    named = re.findall(r"\*\*(.+?)\*\*", page.read_text(encoding="utf-8"), re.S)
+    labels = {" ".join(part.split()) for each in named for part in each.split(" > ")}
+    assert len(labels) > 2
+    assert not labels - window_labels() - BLENDERS_OWN
+
+
+def test_the_engineers_page_shows_the_commands_that_are_run() -> None:
+    folder = ROOT / "examples" / "16_engineer_tutorial"
+    page = (folder / "README.md").read_text(encoding="utf-8")
+    page = " ".join(page.replace("\\\n", " ").split())
+    commands = runpy.run_path(str(folder / "run.py"), run_name="tutorial")["COMMANDS"]
+    unseen = [command for command in commands if command not in page]
+    # Three more of them only make numbers to compare with.
+    assert [command.split()[-1] for command in unseen] == ["green.csv", "table.csv", "model.csv"]
+
+
+def test_the_gallery_is_up_to_date() -> None:
+    gallery = runpy.run_path(str(ROOT / "examples" / "gallery.py"), run_name="gallery")
+    assert {entry.preset for entry in gallery["ENTRIES"]} == set(preset_titles())
+    folders = {path.parent.name for path in ROOT.glob("examples/*/README.md")}
+    assert {*(entry.folder for entry in gallery["ENTRIES"]), *gallery["OTHERS"]} == folders
+    page = (ROOT / "examples" / "README.md").read_text(encoding="utf-8")
+    assert page == gallery["page"](), "renew it with: python examples/gallery.py"

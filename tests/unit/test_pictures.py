@@ -145,3 +145,9 @@ def test_chart_without_a_field_has_no_angles() -> None:
     only_labelled = (labelled.max(axis=2) > 0.5) & (plain.max(axis=2) == 0.0)
     assert np.count_nonzero(only_labelled) > 100
     assert not ((plain.max(axis=2) > 0.5) & (labelled.max(axis=2) == 0.0)).any()
+
+
+@pytest.mark.parametrize("field_deg", [(1e-5, 1e-5), (1e-3, 170.0)])
+def test_chart_of_any_field_has_its_label(field_deg: tuple[float, float]) -> None:
+    """A display far away fills a field that is written with a power of ten."""
+    assert np.isfinite(built_in("chart", 32, 18, field_deg)).all()

@@ -22,7 +22,6 @@ from ...model.scene_parts import ElementSpec
 from ..build.lights import EMITTERS
 from ..build.stage import add_room, device_root
 from ..document import live
-from ..document.held import element_objects
 from ..document.holding import hold_element
 from ..ids import DeviceKind, Mode, Role
 from ..pictures.render_settings import set_up
@@ -177,12 +176,11 @@ def has_eye(scene: bpy.types.Scene) -> bool:
 
 
 def settle(scene: bpy.types.Scene) -> None:
-    """Bring a scene up to date after something was added, where it has an eye and elements."""
-    if has_eye(scene) and any(True for _ in element_objects(scene)):
-        used = [image for image in bpy.data.images if image.users]
-        live.settle(scene)
-        # A picture that was made anew; a test chart has 30 MB.
-        bpy.data.batch_remove([image for image in used if not image.users])
+    """Bring a scene up to date after something was added."""
+    used = [image for image in bpy.data.images if image.users]
+    live.settle(scene)
+    # A picture that was made anew; a test chart has 30 MB.
+    bpy.data.batch_remove([image for image in used if not image.users])
 
 
 def refuse_light_guide(scene: bpy.types.Scene, what: str) -> None:

@@ -255,7 +255,12 @@ def _hangs_plainly(scene: bpy.types.Scene, item: bpy.types.Object) -> bool:
 def _gaze(scene: bpy.types.Scene) -> list[float]:
     if scene.hologram.eye.camera is None:
         return [0.0, 0.0]
-    gaze = gaze_of(_in_device(scene, _eye(scene)).to_3x3() @ _ahead())
+    eye = _eye(scene)
+    ahead = _in_device(scene, eye).to_3x3() @ _ahead()
+    if not 0.0 < ahead.length_squared < math.inf:
+        scale = [round(side, 4) for side in eye.scale]
+        raise FieldError("eye.scale", "must be 1; clear it (Object > Clear > Scale)", scale)
+    gaze = gaze_of(ahead)
     return [round(angle, _DECIMALS) for angle in gaze]
 
 
@@ -288,6 +293,6 @@ def _root(scene: bpy.types.Scene) -> bpy.types.Object:
 
 def _eye(scene: bpy.types.Scene) -> bpy.types.Object:
     eye = scene.hologram.eye.camera
-    if eye is None:
+    if eye is None or eye.type != "CAMERA":
         raise FieldError("eye", "must be a camera; add one with Add > Hologram > Eye", None)
     return eye

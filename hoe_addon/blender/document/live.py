@@ -6,6 +6,7 @@ Each part keeps a digest of what it was last made of; only what differs is made 
 object stays the same datablock with its own place, parents and animation.
 """
 
+import contextlib
 import hashlib
 import json
 from collections.abc import Callable, Iterator
@@ -17,6 +18,7 @@ import bpy
 from ...core.errors import HoeError
 from ...model.device import DeviceSpec, LightGuideSpec
 from ...model.document import to_document
+from .. import whole_undo
 from ..props import changes
 from . import remake
 from .held import document_of, has_device
@@ -57,20 +59,25 @@ def settle(scene: bpy.types.Scene) -> tuple[str, ...]:
         SpecError: The document is not valid; nothing is changed then.
         HoeError: A part cannot be made; those before it are up to date.
     """
-    held = scene.hologram
     made: list[str] = []
+    _settle(scene, made)
+    return tuple(made)
+
+
+def _settle(scene: bpy.types.Scene, made: list[str]) -> None:
+    """As ``settle``; ``made`` grows by what was made anew, also where a later part fails."""
+    held = scene.hologram
     try:
         with changes.unmarked():
             for part in _parts(scene, document_of(scene)):
                 if _made_of(part).get(part.name) != _digest(part.what):
+                    made.append(part.name)
                     part.make()
                     _note(part)
-                    made.append(part.name)
     except HoeError as error:
         _tell(held, str(error))
         raise
     _tell(held, "")
-    return tuple(made)
 
 
 def remember(scene: bpy.types.Scene) -> None:
@@ -93,10 +100,11 @@ def settle_changed(changed: frozenset[int]) -> None:
     """
     for scene in bpy.data.scenes:
         if scene.library is None and has_device(scene) and _concerns(scene, changed):
-            try:
-                settle(scene)
-            except HoeError:
-                continue
+            made: list[str] = []
+            with contextlib.suppress(HoeError):
+                _settle(scene, made)
+            if made:
+                whole_undo.note_exchange()
     for block in (*bpy.data.scenes, *bpy.data.objects):
         if block.session_uid in changed:
             changes.forget(block)
@@ -201,7 +209,11 @@ def _engine_of(document: dict[str, Any]) -> Any:
 
 
 def _made_of(part: _Part) -> dict[str, str]:
-    found = json.loads(part.owner.made_of or "{}")
+    try:
+        found = json.loads(part.owner.made_of or "{}")
+    except (ValueError, RecursionError):
+        # A file of a stranger may hold any text; all is made anew then.
+        return {}
     return found if isinstance(found, dict) else {}
 
 

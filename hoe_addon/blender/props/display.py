@@ -108,6 +108,7 @@ class HOE_PG_display(bpy.types.PropertyGroup):
         name="Size",
         description="Width and height of the display, in mm",
         size=2,
+        subtype="XYZ",
         default=(10.0, 7.5),
         update=mark,
         **SIZE_LIMITS,

@@ -62,6 +62,7 @@ class HOE_PG_element(bpy.types.PropertyGroup):
         name="Size",
         description="Width and height of a lamp or a card, in mm",
         size=2,
+        subtype="XYZ",
         default=(10.0, 10.0),
         update=mark,
         **SIZE_LIMITS,

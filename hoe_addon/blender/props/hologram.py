@@ -45,6 +45,7 @@ class HOE_PG_surface(SurfaceFields, bpy.types.PropertyGroup):
         name="Size",
         description="Width and height of the plane element, in mm",
         size=2,
+        subtype="XYZ",
         default=(40.0, 40.0),
         min=1e-6,
         soft_min=0.1,

@@ -14,6 +14,7 @@ from ...core.errors import HoeError, MissingOslError, NotMadeError, SpecError
 from ...model.document import hologram_from, to_document
 from ...model.hologram import HologramSpec
 from ...shading.hologram import Frame, hologram_shader, hologram_sockets
+from .. import whole_undo
 from ..shaders.following import Followed, drive, in_frame_of, waves_of
 from ..shaders.maps import is_packed, keep_packed, prepare_map, update_map
 from ..shaders.spectral import use_wavelength
@@ -149,7 +150,8 @@ def refresh_frame(material: bpy.types.Material, graph: bpy.types.Depsgraph) -> N
     """
     check_writable(material)
     with _told(material):
-        _write(material, material.evaluated_get(graph), make=False)
+        if _write(material, material.evaluated_get(graph), make=False):
+            whole_undo.note_exchange()
 
 
 def refresh_changed(_changed: frozenset[int] = frozenset()) -> None:
@@ -176,7 +178,8 @@ def _try(material: bpy.types.Material, *, make: bool) -> None:
     if material.hologram.enabled and material.library is None:
         # What is wrong stands in the property, where a panel shows it.
         with contextlib.suppress(HoeError):
-            refresh(material, make=make)
+            if refresh(material, make=make):
+                whole_undo.note_exchange()
 
 
 def _write(material: bpy.types.Material, source: bpy.types.Material, *, make: bool) -> bool:

@@ -113,7 +113,7 @@ def _grating(spec: HologramSpec) -> tuple[Line, ...]:
             Line("Order +1", _first_order(spec, lit)),
         ]
     if finest > 1.01 * centre:
-        lines.append(Line("At the Edge", _period(finest)))
+        lines.append(Line("Finest Period", _period(finest)))
     return tuple(lines) or (Line("Grating", "none"),)
 
 

@@ -77,8 +77,8 @@ def eyebox_facts(report: Mapping[str, Any], folder: str) -> EyeboxFacts:
     lines = [
         Line("Brightest Pupil", f"{max(means):.3g} cd/m2"),
         Line("Darkest Pupil", f"{min(means):.3g} cd/m2"),
-        Line("Over the Eyebox", f"{report['eyebox_uniformity'] * 100:.0f} % (min/max of means)"),
-        Line("Over the Field", f"{darkest * 100:.0f} % (min/max, worst pupil)"),
+        Line("Eyebox", f"{report['eyebox_uniformity'] * 100:.0f} % min/max"),
+        Line("Field", f"{darkest * 100:.0f} %, worst pupil"),
     ]
     colours = [
         (each["u_prime"], each["v_prime"]) for each in positions if each["u_prime"] is not None

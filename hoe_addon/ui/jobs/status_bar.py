@@ -24,7 +24,7 @@ def draw(header: bpy.types.Header, context: bpy.types.Context) -> None:
     row = header.layout.row(align=True)
     bar = row.row(align=True)
     bar.ui_units_x = _WIDTH
-    bar.progress(factor=job.share, text=f"{job.label} {job.share:.0%}")
+    bar.progress(factor=job.share, text=f"{job.label} {job.share * 100:.0f} %")
     row.operator(Op.CANCEL, text="", icon="CANCEL")
     row.separator()
     row.label(text=job.words)

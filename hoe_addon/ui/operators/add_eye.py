@@ -69,7 +69,7 @@ class HOE_OT_add_eye(PlacedElement, bpy.types.Operator):
         """Say what the picture is seen by."""
         if scene.camera == item:
             return ""
-        return f"the camera is still {scene.camera.name}; Look through Eye changes that"
+        return f"the camera is still {scene.camera.name}; Look through the Eye changes that"
 
 
 register, unregister = class_registrars((HOE_OT_add_eye,))

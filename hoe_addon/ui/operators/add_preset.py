@@ -15,14 +15,29 @@ from ..ids import Op
 from .add_placing import may_add, report_added, select
 from .add_views import look_through_camera
 
+_INITIALS = frozenset(("ar", "hud"))
+
 
 @cache
 def preset_items() -> list[tuple[str, str, str, int]]:
-    """The presets as Blender's enum properties take them; a label is a title up to its colon."""
+    """The presets as Blender's enum properties take them; titles are too long for a menu."""
     return [
-        (name, title.split(": ")[0], title, place)
+        (name, preset_label(name), title, place)
         for place, (name, title) in enumerate(preset_titles().items())
     ]
+
+
+def preset_label(name: str) -> str:
+    """Write the name of a preset as a menu does.
+
+    Args:
+        name: The name, as the command line takes it.
+
+    Returns:
+        Its words, with capitals.
+    """
+    words = name.split("_")
+    return " ".join(word.upper() if word in _INITIALS else word.capitalize() for word in words)
 
 
 def _items(_operator: object, _context: object) -> list[tuple[str, str, str, int]]:

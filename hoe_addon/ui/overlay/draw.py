@@ -38,6 +38,8 @@ _STYLES = {
 }
 """In the order of drawing."""
 
+_AROUND_THE_EYE = frozenset((Kind.PUPIL, Kind.EYEBOX))
+
 _STALE = 0.35
 """Opacity of what was there before the scene became invalid, over that of the rest."""
 
@@ -101,7 +103,7 @@ def _is_shown(context: bpy.types.Context) -> bool:
 def _draw_lines(context: bpy.types.Context) -> None:
     import gpu
 
-    kinds = state.kinds_of(context.scene)
+    kinds = _kinds_here(context)
     batches = _batches_of(context.scene)
     shader = gpu.shader.from_builtin("POLYLINE_SMOOTH_COLOR")
     _x, _y, width, height = gpu.state.viewport_get()
@@ -118,6 +120,20 @@ def _draw_lines(context: bpy.types.Context) -> None:
         gpu.state.depth_test_set("NONE")
         gpu.state.depth_mask_set(True)
         gpu.state.blend_set("NONE")
+
+
+def _kinds_here(context: bpy.types.Context) -> frozenset[Kind]:
+    """Kinds that are on, without what stands around the eye where one looks out of it."""
+    kinds = state.kinds_of(context.scene)
+    return kinds - _AROUND_THE_EYE if _is_from_the_eye(context) else kinds
+
+
+def _is_from_the_eye(context: bpy.types.Context) -> bool:
+    space, scene = context.space_data, context.scene
+    if context.region_data.view_perspective != "CAMERA":
+        return False
+    camera = space.camera if space.use_local_camera else scene.camera
+    return camera is not None and camera == scene.hologram.eye.camera
 
 
 def _draw_layer(
@@ -161,7 +177,7 @@ def _draw_labels(context: bpy.types.Context) -> None:
     from bpy_extras.view3d_utils import location_3d_to_region_2d
 
     labels = state.shown(context.scene).drawing.labels
-    if Kind.PUPIL not in state.kinds_of(context.scene):
+    if Kind.PUPIL not in _kinds_here(context):
         return
     blf.size(0, _TEXT_SIZE * context.preferences.system.ui_scale)
     blf.color(0, *colours.MEASURE, 1.0)

@@ -24,22 +24,25 @@ class Place:
     Attributes:
         suffix: End of the names of its classes.
         attributes: What Blender calls the place.
+        shift: Added to the order of panels that are no part of others.
     """
 
     suffix: str
     attributes: dict[str, Any] = field(hash=False)
+    shift: int = 0
 
 
 SIDEBAR = Place("sidebar", {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": TAB})
 
 
-def _properties(tab: str) -> Place:
-    return Place(
-        tab, {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": tab}
-    )
+def _properties(tab: str, shift: int = 0) -> Place:
+    space = {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": tab}
+    return Place(tab, space, shift)
 
 
-MATERIAL, SCENE, RENDER = (_properties(tab) for tab in ("material", "scene", "render"))
+# Right below what makes the surface; Blender has 10 and more for what follows, and nothing below 0.
+MATERIAL = _properties("material", -10)
+SCENE, RENDER = _properties("scene"), _properties("render")
 
 
 class Body:
@@ -99,9 +102,12 @@ def _panel(body: type[Body], place: Place) -> type[bpy.types.Panel]:
         "__module__": body.__module__,
         "__doc__": body.__doc__,
         "bl_idname": name,
+        "bl_order": body.bl_order,
         **place.attributes,
     }
-    if body.parent is not None:
+    if body.parent is None:
+        attributes["bl_order"] = max(0, body.bl_order + place.shift)
+    else:
         attributes["bl_parent_id"] = idname(body.parent, place)
         attributes["bl_options"] = {"DEFAULT_CLOSED"}
     return type(name, (body, bpy.types.Panel), attributes)
@@ -185,7 +191,8 @@ def wrapped(
     """
     column = layout.column(align=True)
     column.scale_y = 0.8
-    for place, line in enumerate(textwrap.wrap(words, _letters(context)) or [""]):
+    lines = textwrap.wrap(words, _letters(context), break_on_hyphens=False)
+    for place, line in enumerate(lines or [""]):
         column.label(text=line, icon=icon if place == 0 else _indent(icon))
 
 

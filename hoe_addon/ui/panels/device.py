@@ -10,6 +10,7 @@ import bpy
 from ...blender.document.held import has_device
 from ...blender.ids import DeviceKind, PictureKind, Role
 from ...blender.registration import class_registrars
+from ..facts.device import Line
 from ..facts.scenes import DEVICE_FACTS
 from ..ids import Menu, Op
 from .base import SCENE, SIDEBAR, Body, panel_classes, split_layout, wrapped
@@ -33,13 +34,27 @@ class Device(Body):
             return
         layout.prop(scene.hologram, "title", text="")
         facts = DEVICE_FACTS.shown(scene)
-        if facts is not None:
-            if facts.problem:
-                problem(layout, context, facts.problem)
-            numbers(layout, facts.lines)
+        if facts is not None and facts.problem:
+            problem(layout, context, facts.problem)
+        numbers(layout, awaited(scene) if facts is None else facts.lines)
         row = layout.row(align=True)
-        row.operator(Op.LOOK_THROUGH_EYE, text="Look through Eye", icon="HIDE_OFF")
+        row.operator(Op.LOOK_THROUGH_EYE, text="Look through the Eye", icon="HIDE_OFF")
         row.operator(Op.EXPORT_DEVICE, text="", icon="EXPORT")
+
+
+def awaited(scene: bpy.types.Scene) -> tuple[Line, ...]:
+    """Keep the place of numbers that are worked out in a moment.
+
+    Blender lays the panels below one that grows out anew only a redraw later: until then they would
+    be drawn over it.
+
+    Args:
+        scene: A scene with a device.
+
+    Returns:
+        As many empty lines as the facts have.
+    """
+    return (Line("", ""),) * (7 if scene.hologram.kind == DeviceKind.LIGHT_GUIDE else 4)
 
 
 def _marked(*paths: str) -> Callable[[Any, bpy.types.Context], None]:

@@ -94,8 +94,10 @@ def _draw_line(layout: bpy.types.UILayout, context: bpy.types.Context, line: Eff
     cost = row.row()
     cost.alignment = "RIGHT"
     cost.label(text=line.error, icon="USER" if chosen else "NONE")
+    reasons = layout.column(align=True)
+    reasons.active = False
     for sentence in line.why:
-        wrapped(layout, context, sentence, "BLANK1")
+        wrapped(reasons, context, sentence, "BLANK1")
 
 
 register, unregister = class_registrars(panel_classes((SIDEBAR, SCENE), (Effects,)))

@@ -86,7 +86,7 @@ def _draw_kinoform(layout: bpy.types.UILayout, efficiency: bpy.types.PropertyGro
     column.prop(efficiency, "relief_depth_error")
     if efficiency.relief_shape in (ReliefShape.SAWTOOTH, ReliefShape.BINARY):
         column.prop(efficiency, "relief_edge_width")
-    layout.prop(efficiency, "relief_angle_dependent")
+    layout.prop(efficiency, "relief_angle_dependent", text="Follows Angle")
 
 
 def _draw_shares(layout: bpy.types.UILayout, efficiency: bpy.types.PropertyGroup) -> None:

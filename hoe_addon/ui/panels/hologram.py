@@ -37,8 +37,28 @@ AWAITED = (Line("", ""),) * 3
 """Keeps the place of lines that are worked out in a moment, so that nothing jumps."""
 
 
+class NoHologram(Body):
+    """How the active material becomes a hologram; below what other materials need more often."""
+
+    name = "no_hologram"
+    bl_label = "Hologram"
+    bl_order = 115
+
+    @classmethod
+    def poll(cls, context):
+        if shown_hologram(context) is not None:
+            return False
+        item = context.object
+        return shown_material(context) is not None or (item is not None and item.type == "MESH")
+
+    def draw(self, context):
+        wrapped(self.layout, context, "The active material is no hologram yet.")
+        self.layout.operator(Op.MAKE_HOLOGRAM, icon="ADD")
+        self.layout.operator(Op.IMPORT_HOLOGRAM, icon="IMPORT")
+
+
 class Hologram(Body):
-    """Whether the active material is a hologram, and what it does."""
+    """The hologram of the active material, and what it does."""
 
     name = "hologram"
     bl_label = "Hologram"
@@ -46,17 +66,10 @@ class Hologram(Body):
 
     @classmethod
     def poll(cls, context):
-        item = context.object
-        return shown_material(context) is not None or (item is not None and item.type == "MESH")
+        return shown_hologram(context) is not None
 
     def draw(self, context):
-        layout = split_layout(self.layout)
-        material = shown_hologram(context)
-        if material is None:
-            wrapped(layout, context, "The active material is no hologram yet.")
-            layout.operator(Op.MAKE_HOLOGRAM, icon="ADD")
-            layout.operator(Op.IMPORT_HOLOGRAM, icon="IMPORT")
-            return
+        layout, material = split_layout(self.layout), shown_hologram(context)
         row = layout.row(align=True)
         row.prop(material, "name", text="", icon="MATERIAL")
         row.operator(Op.IMPORT_HOLOGRAM, text="", icon="IMPORT")
@@ -179,5 +192,5 @@ def draw_mesh(layout: bpy.types.UILayout, surface: bpy.types.PropertyGroup) -> N
 
 
 register, unregister = class_registrars(
-    panel_classes((SIDEBAR, MATERIAL), (Hologram, Element, Orders, Document))
+    panel_classes((SIDEBAR, MATERIAL), (NoHologram, Hologram, Element, Orders, Document))
 )

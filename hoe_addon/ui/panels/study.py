@@ -55,10 +55,10 @@ class EyeboxStudy(Body):
 def _draw_eyebox(
     layout: bpy.types.UILayout, context: bpy.types.Context, facts: EyeboxFacts
 ) -> None:
-    layout.label(text="Last result, white display, no other light")
+    wrapped(layout, context, "Last result: white display, no other light.")
     numbers(layout, facts.lines)
     if facts.rows:
-        layout.label(text="Mean luminance in cd/m2, as the eye moves")
+        wrapped(layout, context, "Mean luminance in cd/m2, as the eye moves:")
         grid = layout.box().column(align=True)
         for row in facts.rows:
             cells = grid.row(align=True)
