@@ -105,8 +105,8 @@ def pane(folder: Path, samples: int) -> float:
     choose_face(bpy.context.object, 4)
     bpy.ops.hologram.hologram_on_faces()
     bpy.ops.object.mode_set(mode="OBJECT")
-    bpy.context.object.active_material.hologram.recording.object.beam = "converging"
     bpy.ops.hologram.add_display(
+        picture="speed",
         size_mm=(24.0, 13.5),
         luminance_cd_m2=100.0,
         location=(0.0, EYE_TO_PANE_MM + PANE_TO_DISPLAY_MM, 0.0),

@@ -10,6 +10,7 @@ numbers that keep all their digits, and none for a plane wave.
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -23,6 +24,8 @@ _FAR = 2.0
 the distance of a hit, over that of the origin, is at least one half."""
 
 
+# A refresh of a material asks for the text, for the numbers, and twice for the map.
+@lru_cache(maxsize=64)
 def pair_part(
     first: PlaneWaveSpec | PointSourceSpec,
     second: PlaneWaveSpec | PointSourceSpec,

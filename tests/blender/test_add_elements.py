@@ -173,5 +173,6 @@ def test_plain_hologram_takes_its_numbers() -> None:
     )
     assert spec.surface.size_mm == (5.0, 6.0)
     assert spec.efficiency.design_wavelength_nm == spec.recording.wavelength_nm == 633.0
-    assert spec.recording.object.position_mm == (0.0, 0.0, 50.0)
+    wave = spec.recording.object
+    assert (wave.position_mm, wave.beam) == ((0.0, 0.0, -50.0), "converging")
     assert spec.orders == (0, 1)

@@ -36,17 +36,17 @@ def plain_hologram(
     back: MediumRef = "air",
     name: str = "Hologram",
 ) -> HologramSpec:
-    """A hologram to begin with: a point source and a plane wave, a kinoform, orders 0 and 1.
+    """A hologram to begin with: a burning glass, recorded by a plane wave and one to its focus.
 
     Args:
         surface: Its shape; by default a square of 40 mm.
         wavelength_nm: Vacuum wavelength of the recording.
-        distance_mm: Distance of the point source, in front.
+        distance_mm: Distance of the point behind that the object wave runs to.
         back: Medium behind it.
         name: Its name.
 
     Returns:
-        The hologram: a lens.
+        The hologram, a kinoform with orders 0 and 1.
     """
     return HologramSpec(
         name=name,
@@ -54,7 +54,7 @@ def plain_hologram(
         media=SideMedia(back=back, front="air"),
         recording=RecordingSpec(
             wavelength_nm=wavelength_nm,
-            object=PointSourceSpec(position_mm=(0.0, 0.0, distance_mm)),
+            object=PointSourceSpec(position_mm=(0.0, 0.0, -distance_mm), beam="converging"),
             reference=PlaneWaveSpec(direction=(0.0, 0.0, -1.0)),
         ),
         efficiency=KinoformSpec(levels=0, design_wavelength_nm=wavelength_nm, relief="PMMA"),
@@ -112,7 +112,7 @@ def hologram_on_faces(
         item: A mesh object of it, in object mode.
         faces: Numbers of the faces; by default all.
         wavelength_nm: Vacuum wavelength of the recording.
-        distance_mm: Distance of the point source, in front of the faces.
+        distance_mm: Distance of the point behind the faces that the object wave runs to.
 
     Returns:
         The material, and the names of the render settings that were changed.

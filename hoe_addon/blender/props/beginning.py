@@ -4,23 +4,28 @@
 
 import bpy
 
-from ..ids import WaveKind
+from ..ids import Beam, WaveKind
 from .changes import unmarked
 
 _RELIEF_INDEX = 1.5
 """Of a relief in plastic."""
 
+FOCUS_MM = 100.0
+"""From the element to the point that the object wave runs to."""
+
 _ORDERS = (0, 1)
 
 
 def begin(group: bpy.types.PropertyGroup) -> None:
-    """Make a new hologram the lens of a point source, with the light that goes straight on.
+    """Make a new hologram a lens, recorded by a wave to its focus and a plane one.
 
     Args:
         group: Properties of a hologram that nobody has set yet.
     """
     with unmarked():
-        group.recording.object.kind = WaveKind.POINT
+        wave = group.recording.object
+        wave.kind, wave.beam = WaveKind.POINT, Beam.CONVERGING
+        wave.position_mm = (0.0, 0.0, FOCUS_MM)
         group.efficiency.relief.index = _RELIEF_INDEX
         for order in _ORDERS:
             group.orders.add().order = order

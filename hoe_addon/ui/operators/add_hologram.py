@@ -31,9 +31,9 @@ class _Recorded:
         **WAVELENGTH_LIMITS,
     )
     distance_mm: FloatProperty(
-        name="Source Distance (mm)",
-        description="Distance of the recording point source in front, in mm; the hologram is a "
-        "lens of this focal length",
+        name="Focal Length (mm)",
+        description="Distance of the point that the recording wave runs to, in mm; the hologram is "
+        "a lens of this focal length",
         default=DISTANCE_MM,
         **MM,
     )
