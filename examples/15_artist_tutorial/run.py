@@ -33,7 +33,7 @@ from hoe_addon.cli.example import (  # noqa: E402
 from hoe_addon.files import writable_folder  # noqa: E402
 
 PRESET: str = "holographic_sight"
-SAMPLES: int = 12
+SAMPLES: int = 48
 MEASURING: int = 64
 """Samples of the pictures that are measured; those that are shown have the number of the option."""
 SIZE: tuple[int, int] = (400, 300)

@@ -265,7 +265,8 @@ def test_a_new_hologram_is_valid_at_once(registered: Any) -> None:
     spec = read_spec(material)
     assert spec.orders == (0, 1)
     assert spec.efficiency.relief == 1.5
-    assert spec.pattern.object.position_mm == (0.0, 0.0, -100.0)
+    wave = spec.pattern.object
+    assert (wave.position_mm, wave.beam) == ((0.0, 0.0, 100.0), "converging")
     assert_agrees(material)
 
 

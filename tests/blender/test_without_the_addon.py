@@ -21,7 +21,7 @@ from hoe_addon.blender.pictures.render_settings import set_up, write_float_exr
 from hoe_addon.blender.props.sync import refresh_changed
 from hoe_addon.model.document import find_device, load_device
 
-pytestmark = pytest.mark.render
+pytestmark = [pytest.mark.render, pytest.mark.slow]
 
 type Make = Callable[..., Any]
 

@@ -23,6 +23,7 @@ READ_OUT = ROOT / "examples" / "02_read_out_a_hologram"
 OPTIONS = {
     "01_two_hologram_ar": ["--samples", "8"],
     "03_three_hologram_ar": ["--samples", "16"],
+    "15_artist_tutorial": ["--samples", "8"],
 }
 """What makes an example quick; the others are."""
 

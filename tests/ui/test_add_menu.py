@@ -76,7 +76,7 @@ def test_redo_panel_properties_count(scene: Any) -> None:
     hologram, lamp = spec.hologram("Hologram").hologram, spec.element("Lamp")
     assert hologram.surface.size_mm == (30.0, 20.0)
     assert hologram.recording.wavelength_nm == 633.0
-    assert hologram.recording.object.position_mm == (0.0, 0.0, 80.0)
+    assert hologram.recording.object.position_mm == (0.0, 0.0, -80.0)
     assert (lamp.shape, lamp.spectrum.centre_nm) == ("line", 633.0)
     assert spec.element("Display").display.image == "bars"
     assert (spec.eye.pupil_diameter_mm, spec.eye.focus_mm, spec.eye.field_deg) == (2, 500, 20)

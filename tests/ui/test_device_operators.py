@@ -90,6 +90,7 @@ def test_in_coupler_can_be_added_twice(guide: Any) -> None:
     document_of(guide)
 
 
+@pytest.mark.slow
 def test_full_plate_takes_no_more(guide: Any) -> None:
     with pytest.raises(RuntimeError, match="must leave a free place"):
         for _ in range(40):

@@ -93,10 +93,14 @@ def test_failure_to_start_leaves_nothing(device: Any, monkeypatch: pytest.Monkey
     assert set(Path(bpy.app.tempdir).iterdir()) == before
 
 
-def test_command_of_the_bpy_module_and_of_blender(tmp_path: Path) -> None:
+def test_command_of_the_bpy_module_and_of_blender(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(launch, "_PACKAGE", "hoe_addon")
     module = launch.command_line(tmp_path)
     assert module[:2] == [sys.executable, "-c"]
-    assert module[-4:] == [str(tmp_path), str(Path(__file__).parents[2]), "", "hoe_addon"]
+    beside = str(Path(launch.__file__).parents[3])
+    assert module[-4:] == [str(tmp_path), beside, "", "hoe_addon"]
     program = launch.command_line(tmp_path, "/opt/blender")
     assert program[0] == "/opt/blender"
     assert "--background" in program
@@ -265,7 +269,7 @@ class TestStatusBar:
             bar, button, label = drawn()
         finally:
             current.unregister()
-        assert (bar.text, bar.options["factor"]) == ("Render 42%", 0.42)
+        assert (bar.text, bar.options["factor"]) == ("Render 42 %", 0.42)
         assert button.name == Op.CANCEL
         assert label.text == "error 0.08 so far, 0 s; Esc ends and keeps what is done"
 

@@ -36,7 +36,7 @@ def own_classes() -> list[type]:
         item
         for kind in kinds
         for item in getattr(bpy.types, kind).__subclasses__()
-        if item.__module__.startswith("hoe_addon.")
+        if "hoe_addon" in item.__module__.split(".")
     ]
 
 
