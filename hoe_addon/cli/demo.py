@@ -34,7 +34,7 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
     )
     parser.add_argument("--out", metavar="DIR", default="out/demo", help="folder for the results")
     parser.set_defaults(run=run, device=_PRESET, assignments=[], size=None)
-    parser.set_defaults(samples=None, seed=None, mode=None)
+    parser.set_defaults(samples=None, seed=None, mode=None, method=None, effects=None)
 
 
 def run(args: argparse.Namespace) -> int:
