@@ -9,7 +9,7 @@
 - Adding, as Add > Hologram does, after ``hoe_addon.register()``: ``add_scene``, ``add_device``
   with its ``AddedDevice``, ``add_hologram``, ``hologram_on_faces``, ``add_slab``,
   ``add_ideal_lens``, ``add_glass``, ``make_glass``, ``add_display``, ``add_lamp``, ``give_eye``;
-  ``scale_to_millimetres``. What a scene holds: ``device_of``, ``document_of``.
+  ``set_size``. What a scene holds: ``device_of``, ``document_of``.
 - Elements: ``hologram_element``, ``surface_of`` a mesh of one's own; ``add_guide``,
   ``add_light_engine``, ``add_eye``, ``set_pupil``, ``patch_frame``.
 - Materials: ``hologram_material``, ``dielectric_material``, ``thin_lens_material``,
@@ -42,6 +42,7 @@ from .build.eye import add_eye, set_pupil
 from .build.guide import add_guide, patch_frame
 from .build.light_engine import add_light_engine
 from .document.held import device_of, document_of
+from .document.size import set_size
 from .pictures.convergence import converge
 from .pictures.denoiser import denoise
 from .pictures.division import divided
@@ -65,7 +66,6 @@ from .shaders.materials import (
 )
 from .shaders.osl import has_osl, require_osl
 from .shaders.spectral import SpectralScene, spectral_scene
-from .units import scale_to_millimetres
 
 __all__ = [
     "AddedDevice",
@@ -123,8 +123,8 @@ __all__ = [
     "render_view",
     "require_osl",
     "save_view",
-    "scale_to_millimetres",
     "set_pupil",
+    "set_size",
     "set_up",
     "spectral_scene",
     "surface_of",

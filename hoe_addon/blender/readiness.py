@@ -11,7 +11,6 @@ from enum import StrEnum, unique
 
 import bpy
 
-from . import units
 from .document.versions import is_newer, newer_words
 from .ids import DeviceKind, Mode, Role
 from .pictures.render_settings import flatten_shutter_curve
@@ -31,7 +30,6 @@ class Mend(StrEnum):
     ENGINE = "engine"
     OSL = "osl"
     DEVICE = "device"
-    UNITS = "units"
     WAVELENGTHS = "wavelengths"
     COLOURS = "colours"
     BOUNCES = "bounces"
@@ -67,11 +65,6 @@ _OSL_OFF = Trouble(
     "Open Shading Language is off in Cycles: plain stand-ins are shown.",
     Mend.OSL,
     "Switch On OSL",
-)
-_NOT_MILLIMETRES = Trouble(
-    "One unit of the scene is not 1 mm: distances and brightness are wrong.",
-    Mend.UNITS,
-    "Scale to Millimetres",
 )
 _NO_WAVELENGTHS = Trouble(
     "Motion blur or its shutter is not as set: it carries the wavelengths, so colours are wrong.",
@@ -156,8 +149,6 @@ def _engine(scene: bpy.types.Scene) -> Iterator[Trouble]:
 
 
 def _settings(scene: bpy.types.Scene) -> Iterator[Trouble]:
-    if not units.in_millimetres(scene):
-        yield _NOT_MILLIMETRES
     settings = getattr(scene, "cycles", None)
     if settings is None:
         return
@@ -240,10 +231,6 @@ def _use_cpu(scene: bpy.types.Scene) -> None:
     stand_in.settle_if_changed(scene)
 
 
-def _scale(scene: bpy.types.Scene) -> None:
-    units.scale_to_millimetres(scene)
-
-
 def _restore_shutter(scene: bpy.types.Scene) -> None:
     scene.render.use_motion_blur = True
     scene.cycles.rolling_shutter_type = "NONE"
@@ -276,7 +263,6 @@ _MENDS: Mapping[Mend, Callable[[bpy.types.Scene], None]] = {
     Mend.ENGINE: _use_cycles,
     Mend.OSL: _switch_on,
     Mend.DEVICE: _use_cpu,
-    Mend.UNITS: _scale,
     Mend.WAVELENGTHS: _restore_shutter,
     Mend.COLOURS: _keep_colours,
     Mend.BOUNCES: _restore_bounces,

@@ -44,16 +44,13 @@ class _Holder(msgspec.Struct, frozen=True):
     wave: WaveSpec
 
 
-def moved(
-    wave: WaveSpec, rotation: FloatArray, origin_mm: FloatArray, scale: float = 1.0
-) -> WaveSpec:
+def moved(wave: WaveSpec, rotation: FloatArray, origin_mm: FloatArray) -> WaveSpec:
     """Give a wave, stated in one frame, in the frame around it.
 
     Args:
         wave: The wave in its own frame.
         rotation: Orthogonal matrix whose columns are the axes of that frame, shape ``(3, 3)``.
         origin_mm: Its origin in the frame around, mm, shape ``(3,)``.
-        scale: Lengths of the frame around in one length of the wave's own.
 
     Returns:
         The same wave in the frame around.
@@ -61,23 +58,21 @@ def moved(
     Raises:
         SpecError: A number grows beyond what a document may hold.
     """
-    document = _moved(plain(msgspec.to_builtins(wave)), as_float(rotation), origin_mm, scale)
+    document = _moved(plain(msgspec.to_builtins(wave)), as_float(rotation), origin_mm)
     return to_wave(document)
 
 
-def _moved(value: Any, rotation: FloatArray, origin_mm: FloatArray, scale: float) -> Any:
+def _moved(value: Any, rotation: FloatArray, origin_mm: FloatArray) -> Any:
     if isinstance(value, list):
-        return [_moved(item, rotation, origin_mm, scale) for item in cast("list[Any]", value)]
+        return [_moved(item, rotation, origin_mm) for item in cast("list[Any]", value)]
     if not isinstance(value, dict):
         return value
     carried: dict[str, Any] = {}
     for name, item in cast("dict[str, Any]", value).items():
         if name in POINT_FIELDS:
-            carried[name] = (scale * (rotation @ np.asarray(item)) + origin_mm).tolist()
+            carried[name] = (rotation @ np.asarray(item) + origin_mm).tolist()
         elif name in DIRECTION_FIELDS:
             carried[name] = (rotation @ np.asarray(item)).tolist()
-        elif name.endswith("_mm"):
-            carried[name] = (scale * np.asarray(item)).tolist()
         else:
-            carried[name] = _moved(item, rotation, origin_mm, scale)
+            carried[name] = _moved(item, rotation, origin_mm)
     return carried

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A recording wave that follows an object of the scene.
 
-The numbers of such a wave are those in the frame of the object; where that frame lies in the world
-comes through three sockets, which drivers keep up to date. So any kind of wave can follow, and the
-shader needs no new text when the object moves.
+The numbers of such a wave are those in the frame of the object, in units of the hologram's object,
+so that they grow with the hologram; where that frame lies in the world comes through three sockets,
+which drivers keep up to date. So any kind of wave can follow, and the shader needs no new text when
+the object moves.
 """
 
 from dataclasses import replace
@@ -53,6 +54,7 @@ def following(role: str, part: ShaderPart) -> ShaderPart:
         f"vector {role}_z = cross({x}, {y}); "
         f'vector {role}_away = vector(transform("object", "common", point(frame_origin + '
         f"position[0] * frame_x + position[1] * frame_y + position[2] * frame_z))) - {origin}; "
+        f"{role}_away /= length(mapped_x); "
         f"position = vector(dot({role}_away, {x}), dot({role}_away, {y}), "
         f"dot({role}_away, {role}_z)); "
         f"{part.code} "

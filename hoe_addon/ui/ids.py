@@ -24,7 +24,6 @@ class Op(StrEnum):
     ADD_EYE = "hologram.add_eye"
     # mending
     MEND = "hologram.mend"
-    SCALE_TO_MILLIMETRES = "hologram.scale_to_millimetres"
     REFRESH = "hologram.refresh"
     # recording and efficiency
     MAKE_HOLOGRAM = "hologram.make_hologram"
@@ -38,6 +37,7 @@ class Op(StrEnum):
     # device
     ADD_PATCH = "hologram.add_patch"
     REMOVE_PATCH = "hologram.remove_patch"
+    TRUE_SIZE = "hologram.true_size"
     LOOK_THROUGH_EYE = "hologram.look_through_eye"
     # files
     IMPORT_HOLOGRAM = "hologram.import_hologram"

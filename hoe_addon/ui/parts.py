@@ -13,7 +13,6 @@ from .operators import (
     add_eye,
     add_hologram,
     add_preset,
-    add_units,
     device_files,
     hologram_files,
     mend,
@@ -74,6 +73,5 @@ PARTS: tuple[Part, ...] = (
     add_eye,
     add_hologram,
     add_preset,
-    add_units,
     menus,
 )

@@ -59,10 +59,6 @@ def spoil_osl(scene: Any) -> None:
     scene.cycles.shading_system = False
 
 
-def spoil_units(scene: Any) -> None:
-    scene.unit_settings.scale_length = 1.0
-
-
 def spoil_motion_blur(scene: Any) -> None:
     scene.render.use_motion_blur = False
 
@@ -108,7 +104,6 @@ def spoil_shader(scene: Any) -> None:
 CASES: list[tuple[Callable[[Any], None], Mend, str]] = [
     (spoil_engine, Mend.ENGINE, "Cycles"),
     (spoil_osl, Mend.OSL, "Open Shading Language is off"),
-    (spoil_units, Mend.UNITS, "not 1 mm"),
     (spoil_motion_blur, Mend.WAVELENGTHS, "shutter"),
     (spoil_shutter, Mend.WAVELENGTHS, "shutter"),
     (spoil_rolling, Mend.WAVELENGTHS, "shutter"),
@@ -137,12 +132,6 @@ def test_found_told_and_mended(
     assert found.button
     mend(scene, found)
     assert troubles(scene) == ()
-
-
-def test_mending_units_says_so_to_blender(scene: Any) -> None:
-    spoil_units(scene)
-    mend(scene, the_trouble(scene))
-    assert scene.unit_settings.scale_length == pytest.approx(1e-3)
 
 
 def test_a_device_that_cannot_run_osl(scene: Any, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -212,9 +201,8 @@ def test_a_newer_file_has_this_trouble_only(scene: Any) -> None:
 
 def test_what_is_worst_comes_first(scene: Any) -> None:
     spoil_denoising(scene)
-    spoil_units(scene)
     spoil_engine(scene)
-    assert [each.mend for each in troubles(scene)] == [Mend.ENGINE, Mend.UNITS, Mend.COLOURS]
+    assert [each.mend for each in troubles(scene)] == [Mend.ENGINE, Mend.COLOURS]
 
 
 def test_reading_compiles_and_writes_nothing(scene: Any) -> None:

@@ -151,26 +151,6 @@ def test_preset_as_a_device(scene: Any) -> None:
         call(Op.ADD_PRESET, preset="point_lens", place="DEVICE")
 
 
-def test_scaling_to_millimetres(view: Any) -> None:
-    scene = bpy.context.scene
-    scene.unit_settings.scale_length = 1.0
-    bpy.ops.mesh.primitive_cube_add(size=2.0, location=(1.0, 0.0, 0.0))
-    distance = view.region_3d.view_distance
-    bpy.ops.ed.undo_push(message="metres")
-    call(Op.SCALE_TO_MILLIMETRES)
-    assert bpy.data.objects["Cube"].location.x == pytest.approx(1000.0)
-    assert view.region_3d.view_distance == pytest.approx(1000.0 * distance)
-    with pytest.raises(RuntimeError, match="is one millimetre already"):
-        call(Op.SCALE_TO_MILLIMETRES)
-
-
-def test_a_scene_in_metres_is_warned_of(registered: Any, capfd: pytest.CaptureFixture[str]) -> None:
-    registered.collection.objects.link(bpy.data.objects.new("Mine", None))
-    call(Op.ADD_SLAB)
-    assert registered.unit_settings.scale_length == 1.0
-    assert "1 unit counts as 1 mm, but this scene has other units" in capfd.readouterr().out
-
-
 def test_presets_are_listed_by_name(registered: Any) -> None:
     titles = preset_titles()
     assert [name for name, *_ in preset_items()] == list(titles)
@@ -181,7 +161,7 @@ def test_presets_are_listed_by_name(registered: Any) -> None:
 
 
 def test_tooltips_are_words(registered: Any) -> None:
-    for name in (*ELEMENTS, Op.ADD_PRESET, Op.HOLOGRAM_ON_FACES, Op.SCALE_TO_MILLIMETRES):
+    for name in (*ELEMENTS, Op.ADD_PRESET, Op.HOLOGRAM_ON_FACES, Op.TRUE_SIZE):
         group, _, operator = name.partition(".")
         kind = getattr(getattr(bpy.ops, group), operator).get_rna_type()
         assert len(kind.description) > 20, name

@@ -40,10 +40,6 @@ def _no_osl(scene: Any) -> None:
     scene.cycles.shading_system = False
 
 
-def _metres(scene: Any) -> None:
-    scene.unit_settings.scale_length = 1.0
-
-
 def _denoised(scene: Any) -> None:
     scene.cycles.use_denoising = True
 
@@ -72,7 +68,6 @@ def test_scene_without_holograms_has_no_banner(registered: Any) -> None:
     [
         (_eevee, Mend.ENGINE),
         (_no_osl, Mend.OSL),
-        (_metres, Mend.UNITS),
         (_denoised, Mend.COLOURS),
         (_other_camera, Mend.CAMERA),
         (_no_blur, Mend.WAVELENGTHS),

@@ -29,7 +29,7 @@ from ..props import changes
 from ..props.device import VERSION
 from ..props.values import number
 from ..shaders.spectral import SpectralScene, rendered_spectrum
-from ..units import use_millimetres
+from ..units import scale_of, units_per_mm
 
 
 def begin(scene: bpy.types.Scene) -> None:
@@ -46,7 +46,6 @@ def begin(scene: bpy.types.Scene) -> None:
         with changes.unmarked():
             held.version, held.kind = VERSION, DeviceKind.SCENE
             held.render.mode = Mode.PREVIEW
-        use_millimetres(scene)
         settings = scene.cycles
         set_up(
             scene,
@@ -62,7 +61,7 @@ def begin(scene: bpy.types.Scene) -> None:
         held.room.collection = add_room(scene, RoomSpec(kind="none", luminance_cd_m2=0.0), 1.0)
     root = held.root
     if root is None or root.name not in scene.objects:
-        held.root = device_root(scene.collection)
+        held.root = device_root(scene.collection, units_per_mm(scene))
         held.root.hologram.role = Role.ROOT
 
 
@@ -116,7 +115,7 @@ def put(
     Args:
         scene: A scene that holds a document.
         item: The object; it may be linked somewhere already.
-        matrix: Where, in the world; by default upright at the origin.
+        matrix: Where, in the world, in scene units; by default upright at the origin.
         collection: Collection that it is in; by default that of the scene.
     """
     wanted = collection or scene.collection
@@ -131,7 +130,8 @@ def put(
     root = scene.hologram.root
     item.parent = root
     item.matrix_parent_inverse = root.matrix_world.inverted_safe()
-    item.matrix_basis = matrix if matrix is not None else upright()
+    size = Matrix.Scale(scale_of(root), 4)
+    item.matrix_basis = (matrix if matrix is not None else upright()) @ size
 
 
 def join(scene: bpy.types.Scene, item: bpy.types.Object, element: ElementSpec) -> None:

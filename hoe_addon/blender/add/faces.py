@@ -14,6 +14,7 @@ from ...core.errors import HoeError
 from ...model.mesh_surface import MeshSurface
 from ...model.surface import PlaneSurface, SurfaceSpec
 from ...shading.hologram import Frame
+from ..units import units_per_mm
 
 _FLAT = 1e-4
 """Faces whose corners lie so near to their plane, over their size, are flat."""
@@ -35,7 +36,7 @@ class Patch:
         frame: Frame of the recording in the object: origin in the middle of the faces, z along
             their mean normal.
         surface: Their shape in that frame.
-        units_per_mm: Units of the object in one mm of the world.
+        units_per_mm: Units of the object in one mm of the true size.
     """
 
     frame: Frame
@@ -83,11 +84,12 @@ def slot_given(item: bpy.types.Object, faces: NDArray[np.int64]) -> Iterator[int
         raise
 
 
-def patch_of(item: bpy.types.Object, slot: int) -> Patch:
+def patch_of(scene: bpy.types.Scene, item: bpy.types.Object, slot: int) -> Patch:
     """Find the frame and the shape of the faces that have a material slot, modifiers applied.
 
     Args:
-        item: A mesh object.
+        scene: The scene, which says how long a unit is.
+        item: A mesh object of it.
         slot: Number of the slot.
 
     Returns:
@@ -97,7 +99,7 @@ def patch_of(item: bpy.types.Object, slot: int) -> Patch:
         HoeError: The object is scaled unevenly, or the faces look all around.
         FieldError: The faces are folded so that a normal points to a face's back.
     """
-    units = 1.0 / _scale_of(item)
+    units = units_per_mm(scene) / _even_scale(item)
     corners, normals, triangles = _triangles(item, slot)
     if len(triangles) == 0:
         raise HoeError(f"object {item.name}: has none of these faces after its modifiers")
@@ -117,7 +119,7 @@ def patch_of(item: bpy.types.Object, slot: int) -> Patch:
     return Patch(frame, surface, units)
 
 
-def _scale_of(item: bpy.types.Object) -> float:
+def _even_scale(item: bpy.types.Object) -> float:
     scale = [abs(side) for side in item.matrix_world.to_scale()]
     if max(scale) - min(scale) > _EVEN * max(scale) or min(scale) <= 0.0:
         shown = ", ".join(f"{side:.4g}" for side in scale)

@@ -125,7 +125,7 @@ def hologram_on_faces(
     if chosen.size == 0:
         raise HoeError(f"object {item.name}: has no face selected; select faces in Edit Mode")
     with guest_of(scene) as settings, slot_given(item, chosen) as slot:
-        patch = patch_of(item, slot)
+        patch = patch_of(scene, item, slot)
         elements.begin(scene)
         back = elements.facts_of(item).get("medium", "air")
         spec = plain_hologram(

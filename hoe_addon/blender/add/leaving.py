@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Adding to a scene of the user's: all of it or nothing, and settings that are theirs stay."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
 import bpy
 
 from ..ids import DeviceKind
+from ..units import use_millimetres
 
 _KEPT = (
     "render.resolution_x",
@@ -29,7 +30,7 @@ _KEPT = (
 """What a picture looks like and where it goes; holograms work with any of it."""
 
 _UNITS = ("unit_settings.system", "unit_settings.scale_length", "unit_settings.length_unit")
-"""They stay where there is something that would change its size."""
+"""An empty scene gets millimetres; elsewhere they stay."""
 
 _SET = (
     "render.engine",
@@ -70,7 +71,7 @@ def all_or_nothing() -> Iterator[None]:
 def guest_of(scene: bpy.types.Scene) -> Iterator[list[str]]:
     """Add to a scene: its own settings stay, and all is as it was should the work fail.
 
-    Units stay too, unless the scene is empty.
+    Units stay too; an empty scene gets millimetres.
 
     Args:
         scene: The user's scene.
@@ -79,19 +80,21 @@ def guest_of(scene: bpy.types.Scene) -> Iterator[list[str]]:
         A list; at the end it has the names of the render settings that were changed.
     """
     camera, kind = scene.camera, scene.hologram.kind
-    kept = (*_KEPT, *_UNITS) if scene.objects else _KEPT
     before = {path: _get(scene, path) for path in (*_KEPT, *_UNITS, *_SET)}
+    if not scene.objects:
+        use_millimetres(scene)
+    kept = {path: _get(scene, path) for path in (*_KEPT, *_UNITS)}
     told: list[str] = []
     try:
         with all_or_nothing():
             yield told
     except BaseException:
-        _restore(scene, before, before)
+        _restore(scene, before)
         scene.camera = camera
         if kind == DeviceKind.NONE:
             scene.property_unset("hologram")
         raise
-    _restore(scene, before, kept)
+    _restore(scene, kept)
     if camera is not None:
         scene.camera = camera
     told += [_label(scene, path) for path in _SET if _get(scene, path) != before[path]]
@@ -103,11 +106,11 @@ def _blocks() -> Iterator[bpy.types.ID]:
             yield from getattr(bpy.data, prop.identifier)
 
 
-def _restore(scene: bpy.types.Scene, values: dict[str, Any], paths: Iterable[str]) -> None:
-    for path in paths:
+def _restore(scene: bpy.types.Scene, values: dict[str, Any]) -> None:
+    for path, value in values.items():
         group, field = path.split(".")
-        if _get(scene, path) != values[path]:
-            setattr(getattr(scene, group), field, values[path])
+        if _get(scene, path) != value:
+            setattr(getattr(scene, group), field, value)
 
 
 def _get(scene: bpy.types.Scene, path: str) -> Any:

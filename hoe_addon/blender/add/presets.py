@@ -18,6 +18,7 @@ from ..build.device import DeviceScene, build_device
 from ..document.held import has_device, whole
 from ..document.holding import hold
 from ..document.live import remember
+from ..document.size import set_size
 from .leaving import all_or_nothing, guest_of
 
 _UPRIGHT_AT_ORIGIN = (0.0, 0.0, 0.0)
@@ -67,7 +68,7 @@ def add_device(
     location: Sequence[float] = _UPRIGHT_AT_ORIGIN,
     folder: Path | None = None,
 ) -> AddedDevice:
-    """Add a device without its room to a scene of the user's, upright, 1 unit for 1 mm.
+    """Add a device without its room to a scene of the user's, upright, at its true size.
 
     Size, samples and look of the picture stay as they are.
 
@@ -95,6 +96,7 @@ def add_device(
     with guest_of(scene) as settings:
         device = _built(scene, replace(spec, room=nowhere), folder)
         device.root.location = location
+    set_size(scene)
     return AddedDevice(device.root, device.eye, camera, tuple(settings))
 
 

@@ -47,22 +47,30 @@ def add_eye(
     return eye
 
 
-def set_pupil(camera: bpy.types.Camera, spec: EyeSpec) -> None:
+def set_pupil(camera: bpy.types.Camera, spec: EyeSpec, units_per_mm: float = 1.0) -> None:
     """Give a camera the field, the pupil and the focus of an eye.
 
     Blender's aperture is focal length over f-number. The focal length is chosen freely, in the
-    camera's own millimetres, the f-number for the pupil, and the sensor for the field.
+    camera's own millimetres, the f-number for the pupil, and the sensor for the field. Cycles takes
+    lengths of a camera in scene units, whatever the scale of its object.
+
+    Args:
+        camera: The camera.
+        spec: Pupil, focus and field.
+        units_per_mm: Scene units in one mm where the camera stands.
     """
     # aperture radius (scene units) = focal length (mm) * 1e-3 / (2 * f-number)
     width = 2.0 * math.tan(math.radians(spec.field_deg) / 2.0)
     lens = max(spec.pupil_diameter_mm * _F_NUMBER * 1e3, _LEAST_MM, _LEAST_MM / width)
     camera.lens = lens
-    camera.dof.aperture_fstop = lens * 1e-3 / spec.pupil_diameter_mm
+    camera.dof.aperture_fstop = lens * 1e-3 / (spec.pupil_diameter_mm * units_per_mm)
     camera.sensor_fit = "HORIZONTAL"
     camera.sensor_width = lens * width
     camera.dof.use_dof = True
-    camera.dof.focus_distance = _FAR if spec.focus_mm is None else spec.focus_mm
-    camera.clip_start = 0.8 * _FILTER_DISTANCE  # nearer, and far hills would flicker
+    focus_mm = _FAR if spec.focus_mm is None else spec.focus_mm
+    camera.dof.focus_distance = focus_mm * units_per_mm
+    # Just before the spectral filter: nearer, and far hills would flicker.
+    camera.clip_start = 0.8 * _FILTER_DISTANCE * units_per_mm
     camera.clip_end = _FAR
 
 

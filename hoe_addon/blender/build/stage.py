@@ -17,6 +17,7 @@ from ..pictures.render_settings import set_up
 from ..room.backdrops import add_backdrop
 from ..room.living_room import add_living_room
 from ..shaders.materials import picture
+from ..units import use_millimetres
 
 _PICTURE_SIDE = 1920
 _ROOM_BOUNCES = 2
@@ -33,9 +34,7 @@ def prepare_scene(scene: bpy.types.Scene, settings: RenderSpec) -> None:
     Raises:
         MissingOslError: This Blender, or the scene's device, cannot run OSL.
     """
-    scene.unit_settings.system = "METRIC"
-    scene.unit_settings.scale_length = 1e-3
-    scene.unit_settings.length_unit = "MILLIMETERS"
+    use_millimetres(scene)
     set_up(
         scene,
         samples=settings.samples,
@@ -53,9 +52,10 @@ def prepare_scene(scene: bpy.types.Scene, settings: RenderSpec) -> None:
             scene.view_layers[0].lightgroups.add(name=name)
 
 
-def device_root(collection: bpy.types.Collection) -> bpy.types.Object:
-    """Add the object whose frame is that of the document."""
+def device_root(collection: bpy.types.Collection, units_per_mm: float = 1.0) -> bpy.types.Object:
+    """Add the object whose frame, with lengths in mm, is that of the document."""
     root = empty(collection, "Device", None)
+    root.scale = (units_per_mm,) * 3
     root.rotation_euler = (math.radians(90.0), 0.0, 0.0)
     return root
 
@@ -108,14 +108,18 @@ def _open_image(name: str, path: Path) -> bpy.types.Image | None:
 
 
 def add_room(
-    scene: bpy.types.Scene, spec: RoomSpec, luminance_per_unit_cd_m2: float
+    scene: bpy.types.Scene,
+    spec: RoomSpec,
+    luminance_per_unit_cd_m2: float,
+    units_per_mm: float = 1.0,
 ) -> bpy.types.Collection:
-    """Add what is behind and around a device.
+    """Add what is behind and around a device, its floor and walls about the origin of the world.
 
     Args:
         scene: The scene.
         spec: Which room, and how bright it is.
         luminance_per_unit_cd_m2: Luminance that the scene-linear value 1 stands for.
+        units_per_mm: Scene units in one mm.
 
     Returns:
         The collection that holds it.
@@ -129,7 +133,22 @@ def add_room(
         add_living_room(room, white)
     elif spec.kind != "none":
         add_backdrop(scene, room, spec.kind, white)
+    if units_per_mm != 1.0:
+        _resize(room, units_per_mm)
     return room
+
+
+def _resize(room: bpy.types.Collection, factor: float) -> None:
+    """Make a room larger about the origin of the world, and as bright as before."""
+    for item in room.all_objects:
+        if item.parent is None:
+            item.location *= factor
+            item.scale *= factor
+        light = item.data
+        if isinstance(light, bpy.types.Light) and not isinstance(light, bpy.types.SunLight):
+            light.energy *= factor**2
+            if isinstance(light, bpy.types.PointLight):
+                light.shadow_soft_size *= factor  # an area's size follows its object, this does not
 
 
 def new_collection(scene: bpy.types.Scene, name: str) -> bpy.types.Collection:

@@ -20,6 +20,7 @@ from ...model.device import DeviceSpec, LightGuideSpec
 from ...model.document import to_document
 from .. import whole_undo
 from ..props import changes
+from ..units import scale_of
 from . import remake
 from .held import document_of, has_device
 
@@ -27,6 +28,7 @@ _OWN = ("name", "position_mm", "rotation_deg", "hologram")
 """Fields of an element that its shape does not depend on."""
 
 _LIGHT = "luminance_cd_m2"
+_SIZE = "size of the eye"
 
 
 @dataclass(frozen=True)
@@ -110,6 +112,20 @@ def settle_changed(changed: frozenset[int]) -> None:
             changes.forget(block)
 
 
+def note_size(scene: bpy.types.Scene) -> None:
+    """Note a change where the eye was scaled, alone or with its device: its pupil follows.
+
+    Args:
+        scene: The scene; handlers call this whenever one of its objects has moved.
+    """
+    held = scene.hologram
+    if scene.library is not None or not has_device(scene) or held.eye.camera is None:
+        return
+    size = _Part(_SIZE, held, scale_of(held.eye.camera), lambda: None)
+    if _made_of(size).get(_SIZE) != _digest(size.what):
+        changes.mark_block(scene)
+
+
 def register() -> None:
     """Let objects follow properties."""
     changes.listen(settle_changed)
@@ -151,7 +167,9 @@ def _parts(scene: bpy.types.Scene, spec: DeviceSpec) -> Iterator[_Part]:
     yield part("spectrum", _spectrum_of(document), remake.spectrum)
     yield part("preview", render["preview_wavelength_nm"], remake.preview)
     yield part("eye", [render["mode"], document["eye"]], remake.eye)
-    yield part("room", [document["room"], unit], remake.room)
+    yield part(_SIZE, scale_of(held.eye.camera), remake.pupil)
+    size = scale_of(held.root)
+    yield part("room", [document["room"], unit, *([size] if size != 1.0 else [])], remake.room)
     if isinstance(spec, LightGuideSpec):
         light = spec.display.luminance_cd_m2 / unit
         yield _light_part(held, held.engine.panel, light)

@@ -22,6 +22,7 @@ from ..pictures.render_settings import set_path_lengths
 from ..props.sync import refresh
 from ..props.values import store
 from ..shaders import nodes
+from ..units import scale_of
 from . import resample
 from .held import hologram_slot, spectrum_of
 
@@ -47,7 +48,7 @@ def eye(scene: bpy.types.Scene, spec: DeviceSpec) -> None:
     camera = scene.hologram.eye.camera
     if camera is None:
         return
-    set_pupil(camera.data, spec.eye)
+    pupil(scene, spec)
     screens = [child for child in camera.children if child.hologram.role == Role.FILTER]
     if spec.render.mode != "spectral":
         for screen in screens:
@@ -59,6 +60,13 @@ def eye(scene: bpy.types.Scene, spec: DeviceSpec) -> None:
         screen.hologram.role = Role.FILTER
     for screen in screens:
         _swap_mesh(screen, filter_mesh(spec.eye))
+
+
+def pupil(scene: bpy.types.Scene, spec: DeviceSpec) -> None:
+    """Set pupil, focus and field of the eye at the size that it has in the scene."""
+    camera = scene.hologram.eye.camera
+    if camera is not None:
+        set_pupil(camera.data, spec.eye, scale_of(camera))
 
 
 def guide(scene: bpy.types.Scene, spec: DeviceSpec) -> None:
@@ -117,7 +125,8 @@ def room(scene: bpy.types.Scene, spec: DeviceSpec) -> None:
     if held.world is not None and scene.world == held.world:
         scene.world = None
     before = scene.world
-    held.collection = add_room(scene, spec.room, spec.render.luminance_per_unit_cd_m2)
+    unit, size = spec.render.luminance_per_unit_cd_m2, scale_of(scene.hologram.root)
+    held.collection = add_room(scene, spec.room, unit, size)
     held.world = scene.world if scene.world != before else None
 
 

@@ -9,6 +9,7 @@ from ...core.errors import HoeError
 from ..ids import WaveKind
 from ..props.followed import carrier_of, read_frame
 from ..props.values import number, numbers
+from ..units import scale_of
 
 _PLANE_DISTANCE_MM = 100.0
 """How far from the element the object of a plane wave is put; only its direction counts."""
@@ -65,23 +66,24 @@ def make_source(
         bpy.data.objects.remove(made)
         raise
     units = number(material.hologram, "units_per_mm")
+    mm = units * scale_of(carrier)
     made.empty_display_type = _EMPTIES.get(WaveKind(wave.kind), "PLAIN_AXES")
-    made.empty_display_size = 10.0 * units
+    made.empty_display_size = 10.0 * mm
     collection.objects.link(made)
     frame = Matrix(read_frame(material).matrix().tolist())
-    made.matrix_world = _place(wave, carrier.matrix_world @ frame, units)
+    made.matrix_world = _place(wave, carrier.matrix_world @ frame, units, mm)
     return made
 
 
-def _place(wave: bpy.types.PropertyGroup, here: Matrix, units: float) -> Matrix:
-    """Where the object stands, in scene units; ``here`` is the frame of the recording."""
+def _place(wave: bpy.types.PropertyGroup, here: Matrix, units: float, mm: float) -> Matrix:
+    """Where the object stands; ``here`` is the frame of the recording, ``mm`` is in scene units."""
     _, turn, _ = here.decompose()
     match WaveKind(wave.kind):
         case WaveKind.POINT:
             return Matrix.Translation(here @ (Vector(numbers(wave, "position_mm")) * units))
         case WaveKind.PLANE:
             direction = turn @ Vector(numbers(wave, "direction")).normalized()
-            start = here.translation - direction * _PLANE_DISTANCE_MM * units
+            start = here.translation - direction * _PLANE_DISTANCE_MM * mm
             return Matrix.LocRotScale(start, direction.to_track_quat("-Z", "Y"), None)
         case _:
             return Matrix.LocRotScale(here.translation, turn, None)

@@ -117,8 +117,7 @@ def in_frame_of(
     rotation = _unit_axes(here[:3, :3]).T @ there
     away = np.array(followed.target.matrix_world.translation) - here[:3, 3]
     origin = np.linalg.solve(here[:3, :3], away)
-    scale = float(1.0 / np.cbrt(np.prod(lengths)))
-    return moved(followed.wave, rotation, origin / units, scale)
+    return moved(followed.wave, rotation, origin / units)
 
 
 def _unit_axes(mapped: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -11,6 +11,7 @@ import msgspec
 
 from ...blender.document import foreign
 from ...blender.document.held import document_of, has_device
+from ...blender.document.size import enlargement
 from ...core.errors import HoeError
 from ...model.contents import digest
 from ...model.device import DeviceSpec, LightGuideSpec
@@ -50,12 +51,14 @@ class DeviceFacts:
         lines: Its numbers.
         problem: Why its properties make no valid document; empty where they do.
         foreign: Names of things in the scene that the document does not know.
+        enlargement: How many times its true size the device has in the scene.
         digest: Hash of all that its effect plan depends on.
     """
 
     lines: tuple[Line, ...] = ()
     problem: str = ""
     foreign: tuple[str, ...] = ()
+    enlargement: float = 1.0
     digest: str = ""
 
 
@@ -75,7 +78,11 @@ def device_facts(scene: bpy.types.Scene) -> DeviceFacts:
     except HoeError as error:
         return DeviceFacts(problem=str(error), foreign=foreign.things(scene))
     return DeviceFacts(
-        tuple(lines_of(spec)), scene.hologram.problem, foreign.things(scene), plan_digest(spec)
+        tuple(lines_of(spec)),
+        scene.hologram.problem,
+        foreign.things(scene),
+        enlargement(scene),
+        plan_digest(spec),
     )
 
 

@@ -24,7 +24,7 @@ def _stamp(scene: bpy.types.Scene) -> object:
         if item.hologram.role != Role.NONE
     )
     size = render.resolution_x, render.resolution_y, render.resolution_percentage
-    return len(scene.objects), size, places
+    return len(scene.objects), size, scene.unit_settings.scale_length, places
 
 
 DEVICE_FACTS: Facts[bpy.types.Scene, DeviceFacts] = Facts(

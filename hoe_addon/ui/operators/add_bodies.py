@@ -125,7 +125,7 @@ class HOE_OT_add_glass(_Clear, PlacedElement, bpy.types.Operator):
         except HoeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        report_added(self, context.scene, f"{self.medium} on {len(items)} objects", settings)
+        report_added(self, f"{self.medium} on {len(items)} objects", settings)
         return {"FINISHED"}
 
 

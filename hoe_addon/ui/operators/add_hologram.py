@@ -107,7 +107,7 @@ class HOE_OT_hologram_on_faces(_Recorded, bpy.types.Operator):
             if editing:
                 bpy.ops.object.mode_set(mode="EDIT")
         item.active_material_index = item.material_slots.find(material.name)
-        report_added(self, context.scene, material.name, settings)
+        report_added(self, material.name, settings)
         return {"FINISHED"}
 
 

@@ -10,13 +10,10 @@ from bpy.props import EnumProperty, FloatVectorProperty
 from bpy_extras.object_utils import add_object_align_init
 from mathutils import Matrix
 
-from ...blender.units import in_millimetres
 from ...core.errors import HoeError
 
 MM = {"min": 1e-3, "soft_min": 0.1, "soft_max": 500.0, "step": 100, "precision": 3}
 """Limits of lengths in mm."""
-
-_UNITS = "1 unit counts as 1 mm, but this scene has other units: see the banner in the Hologram tab"
 
 
 def _aligned(operator: "PlacedElement", _context: bpy.types.Context) -> None:
@@ -57,7 +54,7 @@ class PlacedElement:
             return {"CANCELLED"}
         select(context, item)
         note = self.note(scene, item)
-        report_added(self, scene, item.name, settings, note)
+        report_added(self, item.name, settings, note)
         return {"FINISHED"}
 
     def note(self, scene: bpy.types.Scene, item: bpy.types.Object) -> str:
@@ -128,7 +125,6 @@ def select(context: bpy.types.Context, item: bpy.types.Object) -> None:
 
 def report_added(
     operator: bpy.types.Operator,
-    scene: bpy.types.Scene,
     name: str,
     settings: Sequence[str],
     note: str = "",
@@ -137,7 +133,6 @@ def report_added(
 
     Args:
         operator: Who says it.
-        scene: The scene.
         name: What was added.
         settings: Names of the render settings that were changed.
         note: What else there is to say.
@@ -145,10 +140,7 @@ def report_added(
     words = [f"{name} added", *([note] if note else [])]
     if settings:
         words.append(f"render settings that holograms need were set: {', '.join(settings)}")
-    if in_millimetres(scene):
-        operator.report({"INFO"}, "; ".join(words))
-    else:
-        operator.report({"WARNING"}, "; ".join([*words, _UNITS]))
+    operator.report({"INFO"}, "; ".join(words))
 
 
 def _has_view(context: bpy.types.Context) -> bool:

@@ -74,7 +74,7 @@ class HOE_OT_add_preset(bpy.types.Operator):
         title = preset_titles()[properties.preset]
         if properties.place == "SCENE":
             return f"{title}. Opens as a new scene; yours stays as it is"
-        return f"{title}. Without its room, the eye at the 3D cursor, 1 unit for 1 mm"
+        return f"{title}. Without its room, at its true size, the eye at the 3D cursor"
 
     def execute(self, context):
         try:
@@ -102,7 +102,7 @@ class HOE_OT_add_preset(bpy.types.Operator):
         camera = "its eye is the camera now"
         if added.kept_camera is not None:
             camera = f"the camera is still {added.kept_camera.name}, its eye is {added.eye.name}"
-        report_added(self, scene, self.preset, added.settings, camera)
+        report_added(self, self.preset, added.settings, camera)
 
 
 register, unregister = class_registrars((HOE_OT_add_preset,))

@@ -24,20 +24,6 @@ def look_through_camera(window: bpy.types.Window) -> None:
         space.region_3d.view_perspective = "CAMERA"
 
 
-def scale_views(window: bpy.types.Window, factor: float) -> None:
-    """Let the 3-D views of a window show a scene as before it was scaled.
-
-    Args:
-        window: The window.
-        factor: What lengths were multiplied with.
-    """
-    for space in _views(window):
-        space.clip_start *= factor
-        space.clip_end *= factor
-        space.region_3d.view_location *= factor
-        space.region_3d.view_distance *= factor
-
-
 def _views(window: bpy.types.Window) -> Iterator[bpy.types.SpaceView3D]:
     for area in window.screen.areas:
         space = area.spaces.active

@@ -7,6 +7,7 @@ from bpy.props import EnumProperty
 
 from ...blender.build.looking import look_through_eye
 from ...blender.document.patches import Purpose, add_patch, remove_patch
+from ...blender.document.size import set_size
 from ...blender.ids import DeviceKind
 from ...blender.registration import class_registrars
 from ...core.errors import HoeError
@@ -71,6 +72,33 @@ class HOE_OT_remove_patch(_OfLightGuide, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class HOE_OT_true_size(bpy.types.Operator):
+    """Give the device its true size."""
+
+    bl_idname = Op.TRUE_SIZE
+    bl_label = "True Size"
+    bl_description = (
+        "Scale the device, about the origin of its root, to the size in mm that it has in its "
+        "panels; what is seen through it stays the same"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        if context.scene is None or context.scene.hologram.root is None:
+            cls.poll_message_set("This scene holds no device; add one with Add > Hologram")
+            return False
+        return True
+
+    def execute(self, context):
+        try:
+            set_size(context.scene)
+        except HoeError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
 class HOE_OT_look_through_eye(bpy.types.Operator):
     """Look through the eye."""
 
@@ -107,5 +135,5 @@ def _view(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
 
 
 register, unregister = class_registrars(
-    (HOE_OT_add_patch, HOE_OT_remove_patch, HOE_OT_look_through_eye)
+    (HOE_OT_add_patch, HOE_OT_remove_patch, HOE_OT_true_size, HOE_OT_look_through_eye)
 )

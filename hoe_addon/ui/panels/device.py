@@ -37,6 +37,10 @@ class Device(Body):
         if facts is not None and facts.problem:
             problem(layout, context, facts.problem)
         numbers(layout, awaited(scene) if facts is None else facts.lines)
+        if facts is not None and facts.enlargement != 1.0:
+            row = layout.row()
+            row.label(text=f"Stands here {facts.enlargement:.3g} times its true size")
+            row.operator(Op.TRUE_SIZE, text="True Size")
         row = layout.row(align=True)
         row.operator(Op.LOOK_THROUGH_EYE, text="Look through the Eye", icon="HIDE_OFF")
         row.operator(Op.EXPORT_DEVICE, text="", icon="EXPORT")
