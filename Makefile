@@ -3,6 +3,9 @@
 
 PYTHON := .venv/bin/python
 
+# Each process that renders takes one to two GB of memory.
+PARALLEL := -n auto --maxprocesses 4
+
 .DEFAULT_GOAL := help
 .PHONY: help setup demo extension test test-slow lint schema lock clean
 
@@ -19,11 +22,11 @@ extension: setup  ## Build the extension for Blender as dist/hoe_addon-VERSION.z
 	$(PYTHON) .ci/extension.py
 
 test: setup  ## Run the tests that are quick
-	$(PYTHON) -m pytest -m "not slow"
+	$(PYTHON) -m pytest -m "not slow" $(PARALLEL) --dist worksteal
 
 test-slow: setup  ## Run the slow tests: renders, statistics, benchmarks
 	@# pytest's exit code 5 says that no test is slow, which is no failure
-	$(PYTHON) -m pytest -m slow || [ $$? -eq 5 ]
+	$(PYTHON) -m pytest -m slow $(PARALLEL) --dist loadfile || [ $$? -eq 5 ]
 
 lint: setup  ## Check style, format and types
 	$(PYTHON) -m ruff check .

@@ -19,7 +19,11 @@ def prepare() -> None:
     """Show the results as if the study had just ended."""
     hide_room()
     report = json.loads(RESULT.read_text(encoding="utf-8"))
-    part("ui.facts.study").keep_eyebox(scene().session_uid, report, "//renders/eyebox_001")
+    result = {"report": report, "folder": "//renders/eyebox_001"}
+    here, facts = scene(), part("ui.facts.device")
+    digest = facts.plan_digest(part("blender.document.held").document_of(here))
+    kind = part("blender.job_files").JobKind.EYEBOX
+    part("ui.facts.study").keep_result(here, kind, result, digest)
 
 
 take(

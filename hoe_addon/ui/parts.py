@@ -5,7 +5,7 @@
 from ..blender.registration import Part
 from . import menus
 from .facts import material as material_facts
-from .facts import plans, previews, scenes, study
+from .facts import plans, previews, scenes
 from .jobs import current, status_bar
 from .operators import (
     add_bodies,
@@ -45,7 +45,6 @@ PARTS: tuple[Part, ...] = (
     # device and effects
     scenes,
     plans,
-    study,
     device_operators,
     device_files,
     effect_operators,

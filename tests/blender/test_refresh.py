@@ -315,6 +315,7 @@ def test_map_follows_the_pattern(make_material: Make, lens: dict[str, Any]) -> N
     assert_agrees(material)
 
 
+@pytest.mark.slow
 def test_failed_map_leaves_the_last_good_shader(make_material: Make, lens: dict[str, Any]) -> None:
     material = make_material(lens)
     wave = material.hologram.recording.object

@@ -14,7 +14,6 @@ from hoe_addon.blender.add.presets import add_scene
 from hoe_addon.blender.ids import Goal, Role
 from hoe_addon.model.document import load_device
 from hoe_addon.model.field import field_degrees
-from hoe_addon.ui.facts import study
 from hoe_addon.ui.facts.device import in_metres, lines_of
 from hoe_addon.ui.facts.scenes import DEVICE_FACTS
 from hoe_addon.ui.ids import Menu, Op
@@ -79,7 +78,7 @@ def test_light_guide_in_both_places(show: Callable[[str], Any], place: str) -> N
     words = drawn("device", place).words()
     assert "19° x 10.7°" in words
     assert "18 mm" in words
-    assert "600 cd/m2" in words
+    assert "600 cd/m²" in words
     assert not any(call.alert for call in drawn("device", place).calls)
 
 
@@ -252,54 +251,6 @@ def test_running_job_has_progress_and_cancel(
         assert "error 0.08 so far" in found.words()
         assert Op.CANCEL in found.operators()
         assert Op.RENDER not in found.operators()
-
-
-REPORT: dict[str, Any] = {
-    "grid": [2, 2],
-    "eyebox_uniformity": 0.25,
-    "positions": [
-        {
-            "row": row,
-            "column": column,
-            "mean_cd_m2": 100.0 * (1 + column + 2 * row),
-            "uniformity": 0.5 - 0.1 * row,
-            "u_prime": 0.2 + 0.03 * row,
-            "v_prime": 0.4 + 0.04 * row,
-        }
-        for row in (1, 0)
-        for column in (0, 1)
-    ],
-}
-
-
-def test_last_eyebox_study_is_shown(show: Callable[[str], Any]) -> None:
-    scene = show("two_hologram_ar")
-    assert "Last result" not in drawn("study_eyebox").words()
-    study.keep_eyebox(scene.session_uid, REPORT, "renders/eyebox")
-    words = drawn("study_eyebox").words()
-    assert "400 cd/m2" in words
-    assert "25 % min/max" in words
-    assert "40 %, worst pupil" in words
-    assert "0.050 largest delta u'v'" in words
-    assert "100 200 300 400" in words
-    assert "renders/eyebox" in words
-
-
-def test_wide_grid_stays_out_of_the_panel() -> None:
-    wide = {**REPORT, "grid": [40, 1]}
-    assert study.eyebox_facts(wide, "").rows == ()
-
-
-def test_black_display_has_no_colour() -> None:
-    black = [{**each, "u_prime": None, "v_prime": None} for each in REPORT["positions"]]
-    facts = study.eyebox_facts({**REPORT, "positions": black}, "")
-    assert not any(line.label == "Colour" for line in facts.lines)
-
-
-def test_eyebox_is_for_light_guides(show: Callable[[str], Any]) -> None:
-    show("point_lens")
-    assert panel("study_eyebox") is None
-    assert Op.ACCURACY in drawn("study_accuracy").operators()
 
 
 def test_subpanels_are_closed_at_first(registered: Any) -> None:

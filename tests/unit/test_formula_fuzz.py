@@ -86,6 +86,7 @@ def no_code(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("no_code")
+@pytest.mark.slow
 def test_twenty_thousand_texts() -> None:
     rng = random.Random(20260101)
     x, y = np.meshgrid(np.linspace(-9.0, 9.0, 9), np.linspace(-9.0, 9.0, 9))

@@ -355,6 +355,7 @@ def test_a_damaged_file_is_made_anew(own_cache: Path, monkeypatch: pytest.Monkey
     assert [item.suffix for item in own_cache.iterdir()] == [".exr"]
 
 
+@pytest.mark.slow
 def test_work_on_the_cache_can_be_stopped_and_goes_on(own_cache: Path) -> None:
     spec = hologram()
     with pytest.raises(CancelledError):

@@ -80,6 +80,12 @@ class HOE_PG_device(bpy.types.PropertyGroup):
         description="What the parts were last made of, to see what has changed",
         options={"HIDDEN"},
     )
+    eyebox_result: StringProperty(
+        description="Result of the last study of the eyebox", options={"HIDDEN"}
+    )
+    accuracy_result: StringProperty(
+        description="Result of the last study of accuracy", options={"HIDDEN"}
+    )
     eye: PointerProperty(
         name="Eye", description="Pupil, focus and field of the eye that looks", type=HOE_PG_eye
     )

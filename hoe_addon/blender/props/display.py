@@ -115,7 +115,7 @@ class HOE_PG_display(bpy.types.PropertyGroup):
     )
     luminance_cd_m2: FloatProperty(
         name="Luminance",
-        description="Luminance of the display's white, in cd/m2; a phone has about 500",
+        description="Luminance of the display's white, in cd/m²; a phone has about 500",
         default=500.0,
         update=mark,
         **LUMINANCE_LIMITS,

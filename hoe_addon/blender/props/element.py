@@ -69,7 +69,7 @@ class HOE_PG_element(bpy.types.PropertyGroup):
     )
     luminance_cd_m2: FloatProperty(
         name="Luminance",
-        description="Luminance of the lamp, in cd/m2; the sky has about 5000",
+        description="Luminance of the lamp, in cd/m²; the sky has about 5000",
         default=1000.0,
         update=mark,
         **LUMINANCE_LIMITS,

@@ -108,7 +108,7 @@ class HOE_PG_room(bpy.types.PropertyGroup):
     )
     luminance_cd_m2: FloatProperty(
         name="Room Luminance",
-        description="Luminance of a white surface in the room, in cd/m2; indoors about 100",
+        description="Luminance of a white surface in the room, in cd/m²; indoors about 100",
         default=100.0,
         update=mark,
         **LUMINANCE_LIMITS,

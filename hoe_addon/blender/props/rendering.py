@@ -112,7 +112,7 @@ class HOE_PG_render(bpy.types.PropertyGroup):
     )
     luminance_per_unit_cd_m2: FloatProperty(
         name="Luminance of 1.0",
-        description="Luminance that the scene-linear value 1 stands for, in cd/m2",
+        description="Luminance that the scene-linear value 1 stands for, in cd/m²",
         default=100.0,
         min=1e-6,
         soft_max=1e4,

@@ -132,7 +132,7 @@ def _guide_lines(spec: LightGuideSpec) -> Iterator[Line]:
         for count, pitch in zip(spec.eyebox.grid, spec.eyebox.pitch_mm, strict=True)
     )
     yield Line("Eyebox Grid", f"{columns:.3g} x {rows:.3g} mm")
-    yield Line("Display White", f"{spec.display.luminance_cd_m2:.4g} cd/m2")
+    yield Line("Display White", f"{spec.display.luminance_cd_m2:.4g} cd/m²")
 
 
 def _scene_lines(spec: SceneSpec) -> Iterator[Line]:

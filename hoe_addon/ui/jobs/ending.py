@@ -12,7 +12,7 @@ from ...blender.job_files import JobKind
 from ...blender.props.sync import refresh
 from ...core.errors import HoeError
 from ..facts.cache import redraw
-from ..facts.study import keep_eyebox
+from ..facts.study import keep_result
 from .job import Job, JobStoppedError
 from .pictures import PICTURE, SHEET, load_picture, show_picture
 
@@ -53,9 +53,10 @@ def _take(context: bpy.types.Context, job: Job, result: dict[str, Any]) -> None:
         if material is not None and material.hologram.enabled:
             refresh(material, make=False)
         return
-    if job.kind == JobKind.EYEBOX:
-        keep_eyebox(job.scene, result["report"], result["folder"])
-        redraw()
+    for scene in bpy.data.scenes:
+        if scene.session_uid == job.scene:
+            keep_result(scene, job.kind, result, job.digest)
+            redraw()
     if job.kind == JobKind.ACCURACY:
         if not bpy.app.background:
             bpy.ops.wm.url_open(url=Path(result["page"]).as_uri())

@@ -36,6 +36,7 @@ class Job:
         folder: Folder of the job.
         place: Where the results go, or None.
         scene: Session id of the scene that it is about.
+        digest: Hash of the device that it is about.
         process: Its process.
         began: When it began, by ``time.monotonic``.
         asked: Whether it has been asked to end.
@@ -47,6 +48,7 @@ class Job:
     folder: Path
     place: Place | None
     scene: int
+    digest: str = ""
     process: WorkerProcess | None = None
     began: float = field(default_factory=time.monotonic)
     asked: bool = False

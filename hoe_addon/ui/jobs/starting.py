@@ -10,6 +10,7 @@ import bpy
 from ...blender.document.held import document_of, has_device
 from ...blender.job_files import JobKind
 from ...core.errors import HoeError
+from ..facts.device import plan_digest
 from .current import begin, running, wait
 from .ending import finish
 from .job import Job
@@ -97,6 +98,8 @@ class DeviceJob(JobOperator):
         """Start the job, with a folder for its results."""
         scene = context.scene
         # What is wrong with the document is told now, and no folder is made for it.
-        document_of(scene)
+        spec = document_of(scene)
         place = given_place(self.folder) if self.folder else next_place(scene, self.kind)
-        return launch(self.kind, self.job_label, scene, place, self.settings(context))
+        job = launch(self.kind, self.job_label, scene, place, self.settings(context))
+        job.digest = plan_digest(spec)
+        return job

@@ -39,8 +39,8 @@ class HOE_OT_add_display(PlacedElement, bpy.types.Operator):
         **MM,
     )
     luminance_cd_m2: FloatProperty(
-        name="Luminance (cd/m2)",
-        description="Luminance of its white, in cd/m2; a phone has about 500",
+        name="Luminance (cd/m²)",
+        description="Luminance of its white, in cd/m²; a phone has about 500",
         default=500.0,
         **LUMINANCE_LIMITS,
     )
@@ -80,8 +80,8 @@ class HOE_OT_add_lamp(PlacedElement, bpy.types.Operator):
         **MM,
     )
     luminance_cd_m2: FloatProperty(
-        name="Luminance (cd/m2)",
-        description="Luminance of the lamp, in cd/m2; the sky has about 5000",
+        name="Luminance (cd/m²)",
+        description="Luminance of the lamp, in cd/m²; the sky has about 5000",
         default=1000.0,
         **LUMINANCE_LIMITS,
     )

@@ -21,7 +21,7 @@ class HOE_OT_eyebox(DeviceJob, bpy.types.Operator):
     bl_label = "Survey the Eyebox"
     bl_description = (
         "Look through the light guide from all positions of the eyebox, beside your work: views, "
-        "and the luminance of a white display in cd/m2"
+        "and the luminance of a white display in cd/m²"
     )
 
     kind = JobKind.EYEBOX

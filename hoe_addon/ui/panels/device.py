@@ -171,7 +171,7 @@ class Element(Body):
                 draw_display(layout, element.display)
             case Role.LAMP:
                 layout.prop(element, "size_mm")
-                layout.prop(element, "luminance_cd_m2", text="In cd/m2")
+                layout.prop(element, "luminance_cd_m2", text="In cd/m²")
             case Role.CARD:
                 _draw_picture(layout, element)
                 layout.prop(element, "size_mm")
@@ -227,7 +227,7 @@ class Room(_OfDevice):
     def draw(self, context: bpy.types.Context) -> None:
         layout, room = split_layout(self.layout), context.scene.hologram.room
         layout.prop(room, "kind")
-        layout.prop(room, "luminance_cd_m2", text="White (cd/m2)")
+        layout.prop(room, "luminance_cd_m2", text="White (cd/m²)")
 
 
 def draw_display(layout: bpy.types.UILayout, display: bpy.types.PropertyGroup) -> None:
@@ -239,7 +239,7 @@ def draw_display(layout: bpy.types.UILayout, display: bpy.types.PropertyGroup) -
     """
     _draw_picture(layout, display)
     layout.prop(display, "size_mm")
-    layout.prop(display, "luminance_cd_m2", text="White (cd/m2)")
+    layout.prop(display, "luminance_cd_m2", text="White (cd/m²)")
     layout.prop(display, "white", text="White Point")
     layout.prop(display, "primaries")
 

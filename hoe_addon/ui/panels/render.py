@@ -85,7 +85,7 @@ class Colours(Body):
         swatch = row.row(align=True)
         swatch.ui_units_x = 1.5
         swatch.prop(render, "preview_colour", text="")
-        layout.prop(render, "luminance_per_unit_cd_m2", text="1.0 in cd/m2")
+        layout.prop(render, "luminance_per_unit_cd_m2", text="1.0 in cd/m²")
         layout.prop(scene.view_settings, "exposure")
 
 

@@ -7,7 +7,8 @@ import bpy
 from ...blender.document.held import has_device
 from ...blender.ids import DeviceKind
 from ...blender.registration import class_registrars
-from ..facts.study import EyeboxFacts, eyebox_of
+from ..facts.scenes import DEVICE_FACTS
+from ..facts.study import EyeboxFacts, accuracy_of, eyebox_of
 from ..ids import Op
 from .base import SCENE, SIDEBAR, Body, panel_classes, split_layout, wrapped
 from .progress import draw_progress
@@ -55,10 +56,10 @@ class EyeboxStudy(Body):
 def _draw_eyebox(
     layout: bpy.types.UILayout, context: bpy.types.Context, facts: EyeboxFacts
 ) -> None:
-    wrapped(layout, context, "Last result: white display, no other light.")
+    _draw_age(layout, context, facts.digest, "White display, no other light:")
     numbers(layout, facts.lines)
     if facts.rows:
-        wrapped(layout, context, "Mean luminance in cd/m2, as the eye moves:")
+        wrapped(layout, context, "Mean luminance in cd/m², as the eye moves:")
         grid = layout.box().column(align=True)
         for row in facts.rows:
             cells = grid.row(align=True)
@@ -80,6 +81,20 @@ class AccuracyStudy(Body):
         layout = split_layout(self.layout)
         wrapped(layout, context, "What each setting costs in time, and what it changes.")
         layout.operator(Op.ACCURACY, text="Measure Accuracy", icon="DRIVER_DISTANCE")
+        result = accuracy_of(context.scene)
+        if result is not None:
+            _draw_age(layout, context, result.digest, result.words)
+            wrapped(layout, context, result.page, "FILE_FOLDER")
+
+
+def _draw_age(
+    layout: bpy.types.UILayout, context: bpy.types.Context, digest: str, words: str
+) -> None:
+    """Say whether a result is that of the device as it is now."""
+    facts = DEVICE_FACTS.shown(context.scene)
+    if facts is not None and facts.digest not in ("", digest):
+        wrapped(layout, context, "The device has changed since the last result.", "INFO")
+    wrapped(layout, context, f"Last result. {words}")
 
 
 register, unregister = class_registrars(
