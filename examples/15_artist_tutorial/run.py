@@ -66,7 +66,7 @@ def sight(folder: Path, samples: int) -> float:
         Degrees to the right at which the reticle is seen.
     """
     bpy.ops.hologram.add_preset(preset=PRESET, place="SCENE")
-    scene = next(each for each in bpy.data.scenes if each.hologram.kind != "NONE")
+    scene = next(each for each in bpy.data.scenes if each.hologram.kind == "scene")
     with bpy.context.temp_override(scene=scene):
         bpy.ops.hologram.look_through_eye()
         window = scene.objects["window"].active_material.hologram

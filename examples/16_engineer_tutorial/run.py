@@ -40,7 +40,7 @@ COMMANDS: tuple[str, ...] = (
     "efficiency table.json --wavelengths 545 --theta 3 --orders 1 --from front --out table.csv",
     "efficiency coupler.json --wavelengths 545 --theta 3 --orders 1 --from front --out model.csv",
     "render guide.json --size 64x48 --error 0.4 --out view",
-    "eyebox guide.json --size 64x48 --samples 4 --field-samples 64 --grid 3x1 --pitch-mm 9,2.5 "
+    "eyebox guide.json --size 64x48 --samples 4 --field-samples 2048 --grid 3x1 --pitch-mm 9,2.5 "
     "--out eyebox",
     "accuracy guide.json --size 48x36 --budget 20 --out accuracy",
 )

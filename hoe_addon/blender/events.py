@@ -73,7 +73,7 @@ def _after_frame(_scene: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
 def _after_update(scene: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
     stand_in.settle_if_changed(scene)
     if graph.id_type_updated("OBJECT"):
-        live.note_size(scene)
+        live.note_moves(scene)
     if graph.id_type_updated("MATERIAL"):
         updated = {update.id.original for update in graph.updates}
         for material in animated_holograms():

@@ -73,7 +73,12 @@ class PatternKind(Choice):
     """How it is said what is recorded."""
 
     RECORDING = "recording", 0, "Recording", "Two waves and a wavelength"
-    CHARACTERISTIC = "characteristic", 1, "Characteristic Function", "A function V(x, y)"
+    CHARACTERISTIC = (
+        "characteristic",
+        1,
+        "Function",
+        "A characteristic function V(x, y), without waves",
+    )
 
 
 class CharacteristicKind(Choice):
@@ -144,6 +149,7 @@ class Role(Choice):
     IDEAL_LENS = "ideal_lens", 14, "Ideal Lens", "A thin lens without any error"
     SLAB = "slab", 15, "Light-Guide Slab", "A clear plate without a device around it"
     GLASS = "glass", 16, "Dispersive Glass", "A body whose index depends on the wavelength"
+    ROOM = "room", 17, "Room Part", "A piece of the room, made anew wherever the room changes"
 
 
 class DeviceKind(Choice):
@@ -164,6 +170,15 @@ class PictureKind(Choice):
     RETICLE = "reticle", 4, "Aiming Mark", "A red circle with a dot"
     SPEED = "speed", 5, "Speed", "A green speedometer"
     IMAGE = "image", 6, "Image", "An image of this file"
+
+
+class Primaries(Choice):
+    """What makes the colours of a display; all but the last are names of sets."""
+
+    LED = "led_rgb", 0, "LED", "Red, green and blue LEDs"
+    LASER = "laser_rgb", 1, "Laser", "Three lasers"
+    OLED = "oled_rgb", 2, "OLED", "An OLED panel"
+    OWN = "own", 3, "Own", "Three lines of your own, as JSON"
 
 
 class RoomKind(Choice):

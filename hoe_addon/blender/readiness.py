@@ -11,8 +11,10 @@ from enum import StrEnum, unique
 
 import bpy
 
+from ..core.errors import HoeError
+from .document.held import has_device
 from .document.versions import is_newer, newer_words
-from .ids import DeviceKind, Mode, Role
+from .ids import Mode, Role
 from .pictures.render_settings import flatten_shutter_curve
 from .props import changes
 from .props.sync import refresh
@@ -102,10 +104,10 @@ def troubles(scene: bpy.types.Scene) -> tuple[Trouble, ...]:
     """
     if is_newer(scene):
         return (Trouble(f"This scene is {newer_words(scene.hologram.version)}."),)
-    holograms = _holograms(scene)
-    if not holograms and scene.hologram.kind == DeviceKind.NONE:
+    holograms = [each for each in bpy.data.materials if each.hologram.enabled and each.users]
+    if not has_device(scene) and not _used_in(scene, holograms):
         return ()
-    return (*_engine(scene), *_settings(scene), *_unmade(holograms))
+    return (*_engine(scene), *_settings(scene), *_unmade(scene, holograms))
 
 
 def mend(scene: bpy.types.Scene, trouble: Trouble) -> None:
@@ -122,14 +124,15 @@ def mend(scene: bpy.types.Scene, trouble: Trouble) -> None:
     _MENDS[trouble.mend](scene)
 
 
-def _holograms(scene: bpy.types.Scene) -> list[bpy.types.Material]:
-    """Holograms of a scene; where it holds a document, all that are used in the file."""
-    found = [each for each in bpy.data.materials if each.hologram.enabled and each.users]
-    if not found or scene.hologram.kind != DeviceKind.NONE:
-        return found
-    slots = (slot for item in scene.objects for slot in item.material_slots)
-    here = {slot.material for slot in slots}
-    return [each for each in found if each in here]
+def _used_in(
+    scene: bpy.types.Scene, holograms: list[bpy.types.Material]
+) -> list[bpy.types.Material]:
+    """Those that objects of a scene or patches of its light guide have."""
+    if not holograms:
+        return []
+    here = {slot.material for item in scene.objects for slot in item.material_slots}
+    here.update(patch.material for patch in scene.hologram.patches)
+    return [each for each in holograms if each in here]
 
 
 def _engine(scene: bpy.types.Scene) -> Iterator[Trouble]:
@@ -164,14 +167,16 @@ def _settings(scene: bpy.types.Scene) -> Iterator[Trouble]:
         yield _FEW_SURFACES
 
 
-def _unmade(holograms: list[bpy.types.Material]) -> Iterator[Trouble]:
-    for material in holograms:
+def _unmade(scene: bpy.types.Scene, holograms: list[bpy.types.Material]) -> Iterator[Trouble]:
+    # Objects are looked through only where there is something to tell.
+    told = [each for each in holograms if each.hologram.problem or _can_refresh(each)]
+    for material in _used_in(scene, told):
         problem: str = material.hologram.problem
         if _OSL in problem and not has_osl():
             continue  # the scene's own trouble, which is told once
         if problem:
             yield Trouble(f"{material.name}: {problem}")
-        elif changes.is_changed(material) and not changes.is_waiting():
+        elif not changes.is_waiting():
             words = f"{material.name}: the shader is older than the properties."
             yield Trouble(words, Mend.REFRESH, "Refresh")
 
@@ -185,7 +190,7 @@ def is_spectral(scene: bpy.types.Scene) -> bool:
     Returns:
         What its document says; without one, whether its camera has the spectral filter.
     """
-    if scene.hologram.kind != DeviceKind.NONE:
+    if has_device(scene):
         return scene.hologram.render.mode == Mode.SPECTRAL
     return scene.camera is not None and _has_filter(scene.camera)
 
@@ -211,7 +216,7 @@ def _changes_colours(settings: bpy.types.PropertyGroup) -> bool:
 
 
 def _wanted_bounces(scene: bpy.types.Scene) -> int:
-    if scene.hologram.kind == DeviceKind.NONE:
+    if not has_device(scene):
         return 0
     return min(scene.hologram.render.max_bounces, 1024)
 
@@ -253,10 +258,22 @@ def _look_through_eye(scene: bpy.types.Scene) -> None:
     scene.camera = scene.hologram.eye.camera
 
 
-def _refresh_all(_scene: bpy.types.Scene) -> None:
-    for material in list(changes.taken(bpy.data.materials)):
-        if material.hologram.enabled and material.library is None:
+def _refresh_all(scene: bpy.types.Scene) -> None:
+    """Refresh all holograms that can be; what fails stays noted, and the first error is told."""
+    errors: list[HoeError] = []
+    stale = [each for each in bpy.data.materials if _can_refresh(each)]
+    for material in _used_in(scene, stale):
+        try:
             refresh(material, make=bpy.app.background)
+        except HoeError as error:
+            changes.mark_block(material)
+            errors.append(error)
+    if errors:
+        raise errors[0]
+
+
+def _can_refresh(material: bpy.types.Material) -> bool:
+    return changes.is_changed(material) and material.hologram.enabled and material.library is None
 
 
 _MENDS: Mapping[Mend, Callable[[bpy.types.Scene], None]] = {

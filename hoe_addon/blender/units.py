@@ -40,4 +40,4 @@ def scale_of(item: bpy.types.Object | None) -> float:
     """
     if item is None:
         return 1.0
-    return float(f"{sum(abs(side) for side in item.matrix_world.to_scale()) / 3.0:.5g}")
+    return float(f"{sum(abs(side) for side in item.matrix_world.to_scale()) / 3.0:.6g}")

@@ -62,7 +62,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> Parser:
-    parser = Parser(prog="hoe", description="Holographic optical elements, ray by ray.")
+    parser = Parser(
+        prog="python -m hoe_addon", description="Holographic optical elements, ray by ray."
+    )
     parser.add_argument("--version", action="store_true", help="print the version and exit")
     parser.set_defaults(run=_without_command)
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND")

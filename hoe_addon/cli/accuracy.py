@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ..core.errors import HoeError
 from .interrupt import EXIT_INTERRUPTED, first_interrupt_asks
 from .parser import parse_number
-from .picture_options import add_effects_option, device_of, open_device, size
+from .picture_options import OF_DOCUMENT, add_effects_option, device_of, open_device, size
 from .progress import progress_bar
 
 if TYPE_CHECKING:
@@ -57,7 +57,8 @@ def register(subparsers: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         metavar="SECONDS",
         type=_budget,
         default=_BUDGET,
-        help=f"about how long all takes together (default: {_BUDGET:g})",
+        help=f"about how long all takes together (default: {_BUDGET:g}); the reference and the "
+        "device as it is are measured in any case",
     )
     add(
         "--size",
@@ -65,7 +66,7 @@ def register(subparsers: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         type=size,
         help="pixels of a picture (default: the device's shape with about 12,000 pixels)",
     )
-    add("--seed", metavar="N", type=int, help="first seed of the random numbers")
+    add("--seed", metavar="N", type=int, help=f"first seed of the random numbers ({OF_DOCUMENT})")
     add(
         "--set",
         metavar="PATH=VALUE",
@@ -91,7 +92,7 @@ def run(args: argparse.Namespace) -> int:
     """
     from ..files import writable_folder
     from .accuracy_plot import require_plots
-    from .accuracy_report import table
+    from .accuracy_table import table
 
     require_plots()
     spec = _sized(args, device_of(args))

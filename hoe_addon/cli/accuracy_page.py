@@ -7,7 +7,8 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .accuracy_report import Report, name_of, time_of
+from .accuracy_report import Report
+from .accuracy_table import budget_words, name_of, own_errors, shown, time_of
 
 if TYPE_CHECKING:
     from ..blender.accuracy.results import Accuracy
@@ -98,16 +99,12 @@ def _summary(report: Report) -> str:
         f"{report['title']}. {width} x {height} pixels; errors over "
         f"{report['field']['pixels']} of them ({report['field']['what']}). {machine['threads']} "
         f"threads of {machine['processor']}, {machine['system']}, Blender {report['blender']}, "
-        f"hoe_addon {report['hoe_addon']}, budget {report['budget_seconds']:g} s."
+        f"hoe_addon {report['hoe_addon']}. Time: {budget_words(report)}."
     )
 
 
 def _about_reference(reference: Report) -> str:
-    own = reference["own_errors"]
-    return (
-        f"{reference['samples']} samples, {reference['seconds']:.3g} s; its own error: "
-        f"{own['error']:.2%}, worst region {own['worst_region']:.2%}, u'v' {own['colour']:.4f}"
-    )
+    return f"{reference['samples']} samples, {reference['seconds']:.3g} s; {own_errors(reference)}"
 
 
 def _about(point: Report) -> str:
@@ -151,15 +148,21 @@ def _cells(run: Report, point: Report, last: bool) -> list[str]:
         _number(point, "display_error", 100.0, " %"),
         _number(point, "worst_region", 100.0, " %"),
         _number(point, "colour", 1.0, ""),
-        f"{contrast['value']:.3f} +- {contrast['standard_error']:.3f}" if contrast and last else "",
+        _contrast(contrast) if contrast and last else "",
         f"{percent:.3g}" if percent is not None and last else "",
     ]
+
+
+def _contrast(found: Report) -> str:
+    return f"{shown(found['value'], '.3f')} +- {shown(found['standard_error'], '.3f')}"
 
 
 def _number(point: Report, name: str, scale: float, unit: str) -> str:
     found = point[name]
     if found is None:
         return ""
+    if found["value"] is None:
+        return "-"
     sign = "< " if name in point["limited"] else ""
     value, spread = scale * found["value"], scale * found["standard_error"]
     return f"{sign}{value:.3g} +- {spread:.2g}{unit}"

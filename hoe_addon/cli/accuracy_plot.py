@@ -10,7 +10,8 @@ from typing import Any
 
 from ..core.errors import HoeError
 from ..files import replacing
-from .accuracy_report import Report, name_of
+from .accuracy_report import Report
+from .accuracy_table import name_of
 
 _COLUMNS = 3
 _CURVES = 4

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: hoe_addon contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The results of ``accuracy`` as plain data, as JSON, as CSV, and as lines for the terminal."""
+"""The results of ``accuracy`` as plain data, as JSON and as CSV."""
 
 import csv
 import io
@@ -43,7 +43,8 @@ _MEASURES = {
     "limited": "what is not three times larger than the reference's own error",
 }
 _PERCENT = 0.01
-_COLUMNS = ("error", "display_error", "worst_region", "colour")
+COLUMNS = ("error", "display_error", "worst_region", "colour")
+"""Names of the errors of a picture."""
 
 
 def report_of(spec: "DeviceSpec", found: "Accuracy", budget: float) -> Report:
@@ -73,6 +74,12 @@ def report_of(spec: "DeviceSpec", found: "Accuracy", budget: float) -> Report:
         "size": list(spec.render.size),
         "seed": spec.render.seed,
         "budget_seconds": budget,
+        "spent_seconds": {
+            "total": _rounded(found.spent.total),
+            "reference": _rounded(found.spent.reference),
+            "as_it_is": _rounded(found.spent.first),
+            "other_settings": _rounded(found.spent.others),
+        },
         "stopped_by_user": found.stopped,
         "machine": _machine(),
         "clock_over_processor": _rounded(found.clock),
@@ -147,7 +154,7 @@ def _point(point: "Point", run: "Run", own: float) -> Report:
         "seconds": _rounded(point.seconds),
         "seconds_standard_error": _rounded(run.time_error * (point.seconds - run.finish_seconds)),
         "shown_error": _rounded(max(point.error.value, own) if limited else point.error.value),
-        **{name: _estimate(getattr(point, name)) for name in _COLUMNS},
+        **{name: _estimate(getattr(point, name)) for name in COLUMNS},
         "limited": list(point.limited),
         "on_pareto_front": False,
     }
@@ -193,7 +200,7 @@ def written_csv(report: Report) -> list[str]:
     """Text of accuracy.csv, one line a picture."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    estimates = [part for name in _COLUMNS for part in (name, f"{name}_standard_error")]
+    estimates = [part for name in COLUMNS for part in (name, f"{name}_standard_error")]
     times = ("seconds", "seconds_standard_error")
     writer.writerow(
         ["run", "knob", "value", "samples", *times, *estimates, "limited", "on_pareto_front"]
@@ -201,7 +208,7 @@ def written_csv(report: Report) -> list[str]:
     for run in report["runs"]:
         for point in run["points"]:
             numbers: list[object] = []
-            for name in _COLUMNS:
+            for name in COLUMNS:
                 found = point[name] or {"value": "", "standard_error": ""}
                 numbers += [found["value"], found["standard_error"]]
             start = [run["number"], run["knob"], run["value"], point["samples"]]
@@ -209,57 +216,6 @@ def written_csv(report: Report) -> list[str]:
             limited = " ".join(point["limited"])
             writer.writerow([*start, *numbers, limited, int(point["on_pareto_front"])])
     return [text.getvalue()]
-
-
-def table(report: Report) -> list[str]:
-    """Lines for the terminal: the best picture of every run, and what was not measured."""
-    width, height = report["size"]
-    own = report["reference"]["own_errors"]
-    lines = [
-        f"{report['device']}, {width} x {height} pixels, field: {report['field']['what']}, "
-        f"{report['field']['pixels']} pixels",
-        f"reference: {report['reference']['samples']} samples in "
-        f"{report['reference']['seconds']:.1f} s; its own error {own['error']:.2%}, worst region "
-        f"{own['worst_region']:.2%}, u'v' {own['colour']:.4f}",
-        "",
-        f"{'':3} {'setting':46} {'samples':>7} {'time s':>13} {'error':>16} {'region':>8} "
-        f"{'u_v_':>7} {'MTF 5':>6} {'s to 1 %':>9}",
-    ]
-    lines += [_line(run) for run in report["runs"]]
-    lines += ["", "< limited by the reference; * on the Pareto front; ? too short to time"]
-    if report["reference"]["why_no_sharpness"]:
-        lines.append(f"no MTF: {report['reference']['why_no_sharpness']}")
-    lines += [f"not measured: {name_of(each)}: {each['why']}" for each in report["not_measured"]]
-    return lines
-
-
-def name_of(run: Report) -> str:
-    """Knob and value for people."""
-    return f"{run['knob']}: {run['value']}" if run["value"] else run["knob"]
-
-
-def time_of(run: Report, point: Report) -> str:
-    """Time of a picture with its standard error, ``?`` where it is too short to time."""
-    spread = f"{point['seconds']:.3g} +-{point['seconds_standard_error']:.1g}"
-    return f"?{spread}" if run["too_short_to_time"] else spread
-
-
-def _line(run: Report) -> str:
-    point = run["points"][-1]
-    limits = {name: "<" if name in point["limited"] else "" for name in _COLUMNS}
-    spread = point["error"]["standard_error"]
-    error = f"{limits['error']}{100.0 * point['shown_error']:.3g} +-{100.0 * spread:.2g} %"
-    region = f"{limits['worst_region']}{point['worst_region']['value']:.1%}"
-    colour = f"{limits['colour']}{point['colour']['value']:.4f}"
-    contrast = f"{run['sharpness']['value']:.3f}" if run["sharpness"] else "-"
-    lasting = run["all_samples"]
-    percent = lasting["seconds_to_percent"] if lasting else None
-    noise = "-" if percent is None else f"{percent:.3g}"
-    star = "*" if point["on_pareto_front"] else " "
-    return (
-        f"{run['number']:2}{star} {name_of(run)[:46]:46} {point['samples']:7} "
-        f"{time_of(run, point):>13} {error:>16} {region:>8} {colour:>7} {contrast:>6} {noise:>9}"
-    )
 
 
 def _to_percent(noise: float | None, seconds_per_sample: float | None) -> float | None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .interrupt import EXIT_INTERRUPTED
+from .one_hologram import add_hologram_arguments, hologram_of
 from .progress import progress_bar
 
 if TYPE_CHECKING:
@@ -40,23 +41,28 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
     parser = subparsers.add_parser(
         "bake", help="efficiencies as a table, with its error", description=_DESCRIPTION
     )
+    add_hologram_arguments(parser)
     add = parser.add_argument
-    add("hologram", metavar="HOLOGRAM.json", help="hologram, schema 1")
     add("--out", metavar="TABLE", required=True, help=".npz, .csv, .txt, .bsdf or .exr file")
     add("--exr", metavar="F.exr", help="write it as float EXR too")
     add("--tolerance", metavar="E", type=float, default=1e-3, help="of the share, default 1e-3")
-    add("--wavelengths", metavar=_RANGE_HELP, type=_range, help="nm, default 380:780")
+    add(
+        "--wavelengths",
+        metavar=_RANGE_HELP,
+        type=_range,
+        help="nm, two ends without a step, default 380:780",
+    )
     add(
         "--angles",
         metavar=_RANGE_HELP,
         type=_range,
-        help="degrees along the grating, default all with a cosine up to 0.98",
+        help="degrees along the grating, two ends, default all with a cosine up to 0.98",
     )
     add(
         "--across",
         metavar=_RANGE_HELP,
         type=_range,
-        help="degrees across the grating, default as wide as --angles allows at most",
+        help="degrees across the grating, two ends, default as wide as --angles allows at most",
     )
     add(
         "--from",
@@ -81,7 +87,6 @@ def run(args: argparse.Namespace) -> int:
         Exit code.
     """
     from ..files import OutputError, check_target, refuse_own_input
-    from ..model.document import load_hologram
     from ..model.reading import naming
     from ..model.tables.file import check_suffix, write_table
 
@@ -93,12 +98,12 @@ def run(args: argparse.Namespace) -> int:
         check_target(path)
         if not path.resolve().parent.is_dir():
             raise OutputError(f"{path}: cannot be written: its folder does not exist")
-        refuse_own_input(path, args.hologram)
-    spec = load_hologram(args.hologram)
+        refuse_own_input(path, args.document)
+    spec = hologram_of(args)
     _refuse_own_table(spec, targets)
     part = Path(f"{args.out}.part.npz")
     try:
-        with progress_bar("bake") as progress, naming(args.hologram):
+        with progress_bar("bake") as progress, naming(args.document):
             made = _bake(spec, args, part, progress)
     except KeyboardInterrupt:
         kept = f"; {part} holds what is done, the same call goes on from there"

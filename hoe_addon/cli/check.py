@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..core.errors import HoeError
 from .efficiency import RIGHT_ANGLE_DEG
+from .one_hologram import add_hologram_arguments, hologram_of
 from .parser import LIST_HELP, numbers, orders
 
 if TYPE_CHECKING:
@@ -40,8 +41,8 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
     parser = subparsers.add_parser(
         "check", help="compare efficiency models and test them", description=_DESCRIPTION
     )
+    add_hologram_arguments(parser)
     add = parser.add_argument
-    add("hologram", metavar="HOLOGRAM.json", help="hologram, schema 1")
     add("--wavelengths", metavar="LIST", type=numbers, help=f"nm, {LIST_HELP}, default recorded")
     add("--theta", metavar="LIST", type=numbers, help="degrees, default that of the reference wave")
     add("--phi", metavar="LIST", type=numbers, help="degrees, default 0 where theta is given")
@@ -67,16 +68,15 @@ def run(args: argparse.Namespace) -> int:
     """
     from ..files import refuse_own_input, write_text
     from ..model.check import check_hologram
-    from ..model.document import load_hologram
     from ..model.reading import naming
     from .progress import progress_bar
 
     _refuse_bad_numbers(args)
-    spec = load_hologram(args.hologram)
+    spec = hologram_of(args)
     if args.json:
-        refuse_own_input(args.json, args.hologram)
+        refuse_own_input(args.json, args.document)
     listed = args.orders or sorted({-1, 0, 1, *spec.orders})
-    with naming(args.hologram):
+    with naming(args.document):
         lit, why = _light(args, spec)
         with progress_bar("check") as progress:
             report = check_hologram(spec, lit, progress)

@@ -9,6 +9,7 @@ import OpenImageIO as oiio  # noqa: N813  (the name that its own documentation u
 
 from ..core.errors import RenderError
 from ..files import replacing
+from .with_error import with_error
 
 _MARGIN = 8
 _LEAST_WIDTH = 320  # pixels of a view; captions would run into each other on a smaller one
@@ -53,11 +54,17 @@ def write_contact_sheet(path: Path, views: Path, report: dict[str, Any]) -> None
         oiio.ImageBufAlgo.paste(sheet, x, y, 0, 0, _read(views / f"{position['name']}.png"))
         pupil_x, pupil_y, _ = position["pupil_mm"]
         _text(sheet, x, y + height + 15, 13, _INK, f"x {pupil_x:+g} mm, y {pupil_y:+g} mm")
-        label = f"L {position['mean_cd_m2']:.1f} cd/m2, min/max {position['uniformity']:.2f}"
-        _text(sheet, x, y + height + 30, 12, _FAINT, label)
+        _text(sheet, x, y + height + 30, 12, _FAINT, _label(position))
     with replacing(path) as part:
         if not sheet.write(str(part)):
             raise RenderError(f"{path}: cannot be written: {sheet.geterror()}")
+
+
+def _label(position: dict[str, Any]) -> str:
+    """Luminance and uniformity at one pupil."""
+    mean = with_error(position["mean_cd_m2"], position["standard_error_cd_m2"], 1)
+    uniformity = with_error(position["uniformity"], position["uniformity_standard_error"], 2)
+    return f"L {mean} cd/m2, min/max {uniformity}"
 
 
 def _read(path: Path) -> oiio.ImageBuf:

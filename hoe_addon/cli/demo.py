@@ -32,7 +32,12 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
     parser = subparsers.add_parser(
         "demo", help="the AR light guide: one view and its eyebox", description=_DESCRIPTION
     )
-    parser.add_argument("--out", metavar="DIR", default="out/demo", help="folder for the results")
+    parser.add_argument(
+        "--out",
+        metavar="DIR",
+        default="out/demo",
+        help="folder for the results, made if need be (default: %(default)s)",
+    )
     parser.set_defaults(run=run, device=_PRESET, assignments=[], size=None)
     parser.set_defaults(samples=None, seed=None, mode=None, method=None, effects=None)
 

@@ -8,6 +8,7 @@ from itertools import product
 from typing import Any
 
 from ..core.errors import HoeError
+from .one_hologram import add_hologram_arguments, hologram_of
 from .parser import LIST_HELP, numbers, orders
 
 HEADER = "wavelength_nm,theta_deg,phi_deg,order,side,efficiency\n"
@@ -34,8 +35,8 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
     parser = subparsers.add_parser(
         "efficiency", help="share of the light in each order, as CSV", description=_DESCRIPTION
     )
+    add_hologram_arguments(parser)
     add = parser.add_argument
-    add("hologram", metavar="HOLOGRAM.json", help="hologram, schema 1")
     add("--wavelengths", metavar="LIST", type=numbers, required=True, help=f"nm, {LIST_HELP}")
     add("--orders", metavar="A:B", type=orders, required=True, help="A:B (B included) or a,b,c")
     add("--theta", metavar="LIST", type=numbers, default=[0.0], help="degrees, default 0")
@@ -68,14 +69,13 @@ def run(args: argparse.Namespace) -> int:
     """
     from ..files import write_text
     from ..model import fields
-    from ..model.document import load_hologram
 
     for wavelength_nm in args.wavelengths:
         fields.wavelength_value("--wavelengths", wavelength_nm)
     for theta in args.theta:
         if abs(theta) >= RIGHT_ANGLE_DEG:
             raise HoeError(f"--theta: must be between -90 and 90, got {theta!r}")
-    spec = load_hologram(args.hologram)
+    spec = hologram_of(args)
     write_text(args.out, _rows(args, spec))
     return 0
 
@@ -97,7 +97,7 @@ def _rows(args: argparse.Namespace, spec: Any) -> Iterator[str]:
         for thetas in (args.theta[start : start + block] for start in starts):
             grid = np.meshgrid(thetas, args.phi, indexing="ij")
             direction = incident_direction(*grid, from_front=args.side == "front")
-            with naming(args.hologram):
+            with naming(args.document):
                 shares = efficiencies(spec, direction, wavelength_nm, args.orders, polarization)
             angles = product(thetas, args.phi)
             of_angles = shares.reshape(-1, *shares.shape[2:]).tolist()

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from ..core.errors import HoeError
+from .one_hologram import DOCUMENT_NAME, add_hologram_option, hologram_of, names_device
 from .picture_options import add_effects_option, effects_assignment
 
 if TYPE_CHECKING:
@@ -42,7 +43,8 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add = parser.add_argument
-    add("document", metavar="PRESET|FILE.json", help="a preset, a device, or a hologram")
+    add("document", metavar=DOCUMENT_NAME, help="a preset, a device, or a hologram")
+    add_hologram_option(parser, "default the whole device")
     add("--json", action="store_true", help="print JSON instead of a table")
     add_effects_option(parser)
     add("--promise", metavar="ERROR", type=float, default=None, help="default 0.001")
@@ -82,19 +84,12 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _plan(args: argparse.Namespace, promise: float) -> tuple[str, "EffectPlan"]:
-    from ..model.document import find_device, load_device
+    from ..model.document import load_device
     from ..model.effects import plan_effects, plan_hologram
-    from ..model.reading import naming, parse_json, read_text
+    from ..model.reading import naming
 
-    path = find_device(args.document)
-    with naming(args.document):
-        found = parse_json(read_text(path))
-    if isinstance(found, dict) and "surface" in found:
-        if args.assignments:
-            raise HoeError(f"--set: must be left out for a hologram, got {args.assignments[0]!r}")
-        from ..model.document import load_hologram
-
-        hologram = load_hologram(path)
+    if args.hologram is not None or not names_device(args.document):
+        hologram = hologram_of(args, args.assignments)
         with naming(args.document):
             return hologram.name, plan_hologram(hologram, args.effects or (), promise)
     spec = load_device(args.document, [*args.assignments, *effects_assignment(args)])

@@ -7,8 +7,9 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
-from .picture_options import add_picture_options, light_guide_of, open_device, size
+from .picture_options import OF_DOCUMENT, add_picture_options, light_guide_of, open_device, size
 from .progress import progress_bar
+from .with_error import with_error
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -20,12 +21,15 @@ if TYPE_CHECKING:
 _DESCRIPTION = """\
 Look through a device from a grid of pupil positions. Writes eyebox.png (a labelled contact sheet),
 eyebox.json (per position: pupil centre in mm; mean, min and max luminance of a white display over
-its field in cd/m2, with the standard error of the mean; uniformity = min / max; mean u'v') and
+its field in cd/m2; uniformity = min / max; mean u'v'; all but u'v' with standard errors) and
 views/ (an EXR and a PNG per position). The luminances are measured without the room's light.
 """
 
 _FIELD_SAMPLES = 512
 _MAX_FIELD_SAMPLES = 1_000_000
+
+_NOISY = 0.1
+"""A uniformity with a larger relative standard error is called noisy."""
 
 EYEBOX_FILES = ("eyebox.png", "eyebox.json")
 """What a survey writes into its folder, beside the folder of views."""
@@ -42,8 +46,13 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
     )
     add_picture_options(parser)
     add = parser.add_argument
-    add("--grid", metavar="NXxNY", type=size, help="number of positions along x and y")
-    add("--pitch-mm", metavar="X,Y", type=_pair, help="distance of neighbours along x and y in mm")
+    add("--grid", metavar="NXxNY", type=size, help=f"positions along x and y ({OF_DOCUMENT})")
+    add(
+        "--pitch-mm",
+        metavar="X,Y",
+        type=_pair,
+        help=f"distance of neighbours along x and y in mm ({OF_DOCUMENT})",
+    )
     add(
         "--field-samples",
         metavar="N",
@@ -157,21 +166,44 @@ def view_files(spec: "LightGuideSpec") -> list[str]:
 
 def summary(report: dict[str, Any]) -> str:
     """One line on a survey."""
-    means = [position["mean_cd_m2"] for position in report["positions"]]
+    positions = report["positions"]
+    darkest, brightest = _darkest_and_brightest(positions)
+    worst = min(positions, key=lambda each: each["uniformity"])
+    value, error = worst["uniformity"], worst["uniformity_standard_error"]
+    eyebox = report["eyebox_uniformity"], report["eyebox_uniformity_standard_error"]
+    noisy = "; noisy, use more field samples" if error > _NOISY * value else ""
     return (
-        f"white field: brightest pupil {max(means):.1f} cd/m2, darkest {min(means):.1f} cd/m2, "
-        f"uniformity over the eyebox {report['eyebox_uniformity']:.3f} (min / max of the means)"
+        f"white field: brightest pupil {_mean(brightest)} cd/m2, darkest {_mean(darkest)} cd/m2, "
+        f"uniformity over the eyebox {with_error(*eyebox, 3)} (min / max of the means), "
+        f"over the field of the worst pupil {with_error(value, error, 3)}{noisy}"
     )
+
+
+def _mean(position: dict[str, Any]) -> str:
+    return with_error(position["mean_cd_m2"], position["standard_error_cd_m2"], 1)
+
+
+def _darkest_and_brightest(
+    positions: list[dict[str, Any]],
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    ordered = sorted(positions, key=lambda each: each["mean_cd_m2"])
+    return ordered[0], ordered[-1]
 
 
 def _report(
     device: "DeviceScene", positions: list[dict[str, Any]], field_samples: int
 ) -> dict[str, Any]:
+    from ..core.extremes import ratio
+    from ..core.picture_error import Estimate
     from ..model.document import to_document
     from ..model.field import field_degrees
 
     spec = device.guide_spec
-    means = [position["mean_cd_m2"] for position in positions]
+    darkest, brightest = (
+        Estimate(each["mean_cd_m2"], each["standard_error_cd_m2"])
+        for each in _darkest_and_brightest(positions)
+    )
+    uniformity = ratio(darkest, brightest)
     return {
         "device": spec.name,
         "grid": list(spec.eyebox.grid),
@@ -183,7 +215,8 @@ def _report(
         "field_samples": field_samples,
         "stopped_by_user": len(positions) < math.prod(spec.eyebox.grid),
         "settings": to_document(spec.render),
-        "eyebox_uniformity": min(means) / max(means) if max(means) > 0.0 else 0.0,
+        "eyebox_uniformity": uniformity.value,
+        "eyebox_uniformity_standard_error": uniformity.standard_error,
         "positions": positions,
     }
 

@@ -6,6 +6,8 @@ import argparse
 from time import perf_counter
 from typing import Any
 
+from .one_hologram import add_hologram_arguments, hologram_of
+
 _DESCRIPTION = """\
 Make the map of grad V that a hologram needs whose pattern has no formula: waves behind optics,
 splines, files. It is kept in the cache, where renders find it. Printed are, for every source behind
@@ -23,9 +25,10 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
     parser = subparsers.add_parser(
         "map", help="bake what has no formula, and report on it", description=_DESCRIPTION
     )
-    add = parser.add_argument
-    add("hologram", metavar="HOLOGRAM.json", help="hologram, schema 1")
-    add("--out", metavar="MAP.exr", help="write the map here too: 32-bit float, 4 channels")
+    add_hologram_arguments(parser)
+    parser.add_argument(
+        "--out", metavar="MAP.exr", help="write the map here too: 32-bit float, 4 channels"
+    )
     parser.set_defaults(run=run)
 
 
@@ -39,21 +42,20 @@ def run(args: argparse.Namespace) -> int:
         Exit code.
     """
     from ..files import refuse_own_input, replacing
-    from ..model.document import load_hologram
     from ..model.maps import MapRequest, fit_reports, map_file
     from ..model.reading import naming
     from ..shading.pattern import pattern_part
     from .progress import progress_bar
 
-    spec = load_hologram(args.hologram)
+    spec = hologram_of(args)
     source = pattern_part(spec.pattern, 1.0).map
     if not source.terms:
         print("no map is needed: every part of the pattern has a formula")
         return 0
     request = MapRequest(source, spec.surface, spec.pattern.wavelength_nm)
     if args.out:
-        refuse_own_input(args.out, args.hologram)
-    with naming(args.hologram):
+        refuse_own_input(args.out, args.document)
+    with naming(args.document):
         for line in fit_reports(request):
             print(f"rays behind optics: {line}")
         start = perf_counter()

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from ..blender.build.device import DeviceScene
     from ..model.device import DeviceSpec, LightGuideSpec
 
+OF_DOCUMENT = "default: of the document"
+
 
 def add_picture_options(parser: argparse.ArgumentParser) -> None:
     """Add what sets a picture's size, cost and content.
@@ -24,10 +26,14 @@ def add_picture_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("device", metavar="PRESET|FILE.json", help="name of a preset, or a device's JSON file")
     add("--out", metavar="DIR", required=True, help="folder for the results, made if need be")
-    add("--size", metavar="WxH", type=size, help="width and height of a picture in pixels")
-    add("--samples", metavar="N", type=int, help="samples per pixel")
-    add("--seed", metavar="N", type=int, help="seed of all random numbers: same seed, same picture")
-    add("--mode", choices=("spectral", "preview"), help="all wavelengths, or one for a quick look")
+    add("--size", metavar="WxH", type=size, help=f"pixels of a picture ({OF_DOCUMENT})")
+    add("--samples", metavar="N", type=int, help=f"samples per pixel ({OF_DOCUMENT})")
+    add("--seed", metavar="N", type=int, help=f"same seed, same picture ({OF_DOCUMENT})")
+    add(
+        "--mode",
+        choices=("spectral", "preview"),
+        help=f"all wavelengths, or one for a quick look ({OF_DOCUMENT})",
+    )
     add(
         "--set",
         metavar="PATH=VALUE",
@@ -41,7 +47,7 @@ def add_picture_options(parser: argparse.ArgumentParser) -> None:
         "--method",
         choices=tuple(METHODS),
         help="published: uniform wavelengths, orders by significance, all effects; guided: what a "
-        "render does by itself, in less time",
+        f"render does by itself, in less time ({OF_DOCUMENT})",
     )
     add_effects_option(parser)
     add(

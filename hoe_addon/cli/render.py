@@ -16,6 +16,7 @@ from ..model.methods import QUALITY_ERRORS
 from .interrupt import EXIT_INTERRUPTED, first_interrupt_asks
 from .picture_options import add_picture_options, device_of, open_device
 from .progress import progress_bar
+from .with_error import with_error
 
 if TYPE_CHECKING:
     from ..blender.pictures.asked_view import AskedView
@@ -24,7 +25,8 @@ if TYPE_CHECKING:
 _DESCRIPTION = """\
 Render what the eye sees through a device. Writes view.exr (32-bit float, scene-linear Rec. 709),
 view.png (as shown on a screen), view.blend (opens and renders in Blender without this add-on) and
-metrics.json (settings, seconds, luminance in cd/m2, mean u'v').
+metrics.json (settings, seconds, luminance in cd/m2, mean u'v'). The standard error of a mean
+luminance is told by neighbouring pixels, and is at most that: detail of the picture adds to it.
 
 --error, --seconds and --quality ask for a result instead of a number of samples. The error is the
 root mean square error of the luminance of a pixel of view.exr, relative to the mean luminance, over
@@ -47,8 +49,18 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
     )
     add_picture_options(parser)
     add = parser.add_argument
-    add("--error", metavar="X", type=float, help="render until the error is at most this")
-    add("--seconds", metavar="S", type=float, help="render for so long, set-up counted")
+    add(
+        "--error",
+        metavar="X",
+        type=float,
+        help="render until the relative error is at most this: 0.1 is 10 %%",
+    )
+    add(
+        "--seconds",
+        metavar="S",
+        type=float,
+        help="render for so long by the wall clock, set-up counted",
+    )
     names = ", ".join(f"{name} {error:g}" for name, error in QUALITY_ERRORS.items())
     add("--quality", metavar="NAME", help=f"render until the error has a name's value: {names}")
     parser.set_defaults(run=run)
@@ -123,7 +135,7 @@ def _quality(args: argparse.Namespace) -> list[str]:
 def _tell(made: "AskedView") -> None:
     metrics = made.metrics
     print(f"{made.folder}: view.exr, view.png, view.blend, metrics.json")
-    print(f"picture: mean {metrics['picture']['mean_cd_m2']:.1f} cd/m2; {_emitted(metrics)}")
+    print(f"picture: mean {_mean(metrics['picture'])} cd/m2; {_emitted(metrics)}")
     print(f"{metrics['samples']} samples per pixel in {metrics['seconds']:.1f} s")
 
 
@@ -168,4 +180,9 @@ def _emitted(metrics: dict[str, Any]) -> str:
             metrics["display_field"]["display_light"],
             "light of the display over its field",
         )
-    return f"{words}: mean {light['mean_cd_m2']:.1f}, peak {light['peak_cd_m2']:.1f} cd/m2"
+    return f"{words}: mean {_mean(light)}, peak {light['peak_cd_m2']:.1f} cd/m2"
+
+
+def _mean(light: dict[str, Any]) -> str:
+    """Mean luminance with its standard error."""
+    return with_error(light["mean_cd_m2"], light["mean_standard_error_at_most_cd_m2"], 1)

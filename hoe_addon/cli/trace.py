@@ -6,6 +6,8 @@ import argparse
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from .one_hologram import add_hologram_arguments, hologram_of
+
 if TYPE_CHECKING:
     from ..model.hologram import HologramSpec
     from ..model.rays import RayTable, TraceResult
@@ -30,8 +32,8 @@ def register(subparsers: "argparse._SubParsersAction[Any]") -> None:
     parser = subparsers.add_parser(
         "trace", help="directions of rays through one hologram", description=_DESCRIPTION
     )
+    add_hologram_arguments(parser)
     add = parser.add_argument
-    add("hologram", metavar="HOLOGRAM.json", help="hologram, schema 1")
     add("rays", metavar="RAYS.csv", help="rays to send")
     add("--out", metavar="OUT.csv", required=True, help="file to write")
     add(
@@ -53,15 +55,14 @@ def run(args: argparse.Namespace) -> int:
         Exit code.
     """
     from ..files import refuse_own_input, replacing, write_pieces
-    from ..model.document import load_hologram
     from ..model.reading import naming
     from .ray_files import ray_table, read_rays, result_lines
 
-    spec = load_hologram(args.hologram)
+    spec = hologram_of(args)
     rows = read_rays(args.rays)
-    refuse_own_input(args.out, args.hologram, args.rays)
+    refuse_own_input(args.out, args.document, args.rays)
     with replacing(args.out) as temporary:
-        with naming(args.hologram):
+        with naming(args.document):
             result = _engine(args.engine)(spec, ray_table(rows))
         write_pieces(args.out, temporary, result_lines(rows, result))
     return 0

@@ -10,7 +10,7 @@ from typing import Any, cast
 from ..core.errors import SpecError
 from ..resources import preset_paths
 from .device import DeviceSpec, LightGuideSpec
-from .device_parts import BUILT_IN_IMAGES, DisplaySpec
+from .device_parts import BUILT_IN_IMAGES
 from .field_error import FieldError, show
 from .hologram import HologramSpec
 from .override import override
@@ -177,24 +177,6 @@ def load_device(name: str | Path, assignments: Iterable[str] = ()) -> DeviceSpec
             spec = device_from(with_placed_files(changed, path.parent))
         picture_paths(spec, path.parent)
     return spec
-
-
-def image_path(display: DisplaySpec, folder: Path) -> Path | None:
-    """Find the picture of a display.
-
-    Args:
-        display: The display.
-        folder: Folder of the document, which a relative path starts from.
-
-    Returns:
-        Path of the image file, or None for a built-in picture.
-
-    Raises:
-        SpecError: If the file does not exist.
-    """
-    if display.image in BUILT_IN_IMAGES:
-        return None
-    return _picture_path("display.image", display.image, folder)
 
 
 def picture_paths(spec: DeviceSpec, folder: Path) -> dict[str, Path]:

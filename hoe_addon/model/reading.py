@@ -95,12 +95,27 @@ def to_spec[S: msgspec.Struct](document: object, kind: type[S]) -> S:
     try:
         return msgspec.convert(document, kind, strict=True)
     except msgspec.ValidationError as error:
-        raise _explain(error, document, kind) from error
+        told = _explain(error, document, kind)
+        raise told.moved(_with_names(told.field, document)) from error
+
+
+def _with_names(field: str, document: object) -> str:
+    """Add the names of numbered things to a path: ``elements[0] (lamp).size_mm``."""
+    here = document
+
+    def named(step: re.Match[str]) -> str:
+        nonlocal here
+        index = step["index"] or ""
+        here = at(here, [int(index) if index.isdecimal() else step["name"] or index])
+        name = at(here, ["name"]) if index else None
+        return f"{step[0]} ({show_name(name)})" if isinstance(name, str) and name else step[0]
+
+    return _STEP.sub(named, f".{field}")[1:]
 
 
 def _explain(
     error: msgspec.ValidationError, document: object, kind: type[msgspec.Struct]
-) -> SpecError:
+) -> FieldError:
     """Turn msgspec's complaint into one with our path, rule and value."""
     match = _PLACE.match(str(error))
     what, path = (match["what"], match["path"] or "") if match else (str(error), "")
@@ -110,7 +125,7 @@ def _explain(
         return cause.inside(_written(parts))
     name = re.search(r"field `(.*)`", what, re.DOTALL)
     if name and "missing" in what:
-        return SpecError(f"{_written([*parts, name[1]])}: is missing")
+        return FieldError.told(_written([*parts, name[1]]), "is missing")
     if name:
         known = ", ".join(known_names(kind, document, parts))
         here = [*parts, name[1]]

@@ -24,8 +24,9 @@ def scene(registered: Any) -> Any:
 
 def test_empty_scene_gets_millimetres(scene: Any) -> None:
     scene.unit_settings.scale_length = 1.0
-    hologram.add_hologram(scene)
+    _, changed = hologram.add_hologram(scene)
     assert in_millimetres(scene)
+    assert changed[-1] == "Units"
 
 
 def test_preview_until_there_is_an_eye(scene: Any) -> None:
@@ -157,6 +158,13 @@ def test_elements_hang_on_the_device(scene: Any) -> None:
     scene.hologram.root.location = (0.0, 0.0, 10.0)
     bpy.context.view_layer.update()
     assert tuple(item.matrix_world.translation) == pytest.approx((1.0, 2.0, 13.0))
+
+
+def test_new_elements_come_last(scene: Any) -> None:
+    wanted = ["Zero", "Alpha", "Middle"]
+    for name in wanted:
+        emitters.add_display(scene)[0].name = name
+    assert [element.name for element in document_of(scene).elements] == wanted
 
 
 def test_elements_come_into_their_collection(scene: Any) -> None:

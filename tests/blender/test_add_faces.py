@@ -93,3 +93,11 @@ def test_parts_of_a_device_are_refused(scene: Any) -> None:
     empty = bpy.data.objects.new("Empty", None)
     with pytest.raises(HoeError, match="object Empty: must be a mesh; convert it"):
         hologram.hologram_on_faces(scene, empty)
+
+
+def test_focus_is_as_far_for_the_width_as_on_a_plate(scene: Any) -> None:
+    item = cube(2000.0)
+    material, _ = hologram.hologram_on_faces(scene, item, [0])
+    assert material.hologram.recording.object.position_mm[2] == pytest.approx(-5000.0)
+    material, _ = hologram.hologram_on_faces(scene, item, [1], distance_mm=70.0)
+    assert material.hologram.recording.object.position_mm[2] == pytest.approx(-70.0)

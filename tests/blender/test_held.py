@@ -3,6 +3,7 @@
 """A scene gives back the document that it was built from, also after something has changed."""
 
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from hoe_addon.blender.document.held import device_of, document_of, spectrum_of,
 from hoe_addon.blender.document.holding import hold
 from hoe_addon.core.errors import SpecError
 from hoe_addon.model.document import load_device, to_document
+from hoe_addon.model.effects import plan_effects
 
 PLACE_MM = 1e-4
 """Places are float32 in the scene: 1e-7 of at most a metre."""
@@ -53,19 +55,18 @@ def assert_alike(found: Any, wanted: Any, path: str = "") -> None:
         assert found == wanted, path
 
 
-def by_name(document: dict[str, Any]) -> dict[str, Any]:
-    """The order of elements says nothing; and a hologram is called as its material is."""
+def unnamed(document: dict[str, Any]) -> dict[str, Any]:
+    """A hologram on an element is called as its material is."""
     for element in document.get("elements", ()):
         if "hologram" in element:
             element["hologram"].pop("name")
-    document.get("elements", []).sort(key=lambda element: element["name"])
     return document
 
 
 @pytest.mark.parametrize("name", resources.preset_paths())
 def test_scene_gives_its_document_back(build: Build, name: str) -> None:
     device = build(name)
-    found, wanted = (by_name(to_document(s)) for s in (document_of(device.scene), device.spec))
+    found, wanted = (unnamed(to_document(s)) for s in (document_of(device.scene), device.spec))
     assert_alike(found, wanted)
 
 
@@ -112,6 +113,38 @@ def test_what_the_document_does_not_know_turns_all_effects_on(build: Build) -> N
     assert document_of(scene).render.effects == ()
 
 
+@pytest.mark.parametrize(
+    ("sides", "percentage", "size"),
+    [((64, 48), 50, (32, 24)), ((100, 101), 29, (29, 29)), ((64, 48), 150, (96, 72))],
+)
+def test_size_is_what_blender_renders(
+    build: Build, sides: tuple[int, int], percentage: int, size: tuple[int, int]
+) -> None:
+    scene = build("point_lens").scene
+    scene.render.resolution_x, scene.render.resolution_y = sides
+    scene.render.resolution_percentage = percentage
+    assert document_of(scene).render.size == size
+
+
+def test_too_small_a_picture_is_told(build: Build) -> None:
+    scene = build("point_lens").scene
+    scene.render.resolution_percentage = 1
+    with pytest.raises(SpecError, match=r"^render\.size"):
+        document_of(scene)
+
+
+def test_choice_for_a_hologram_of_another_name_is_left_out(build: Build) -> None:
+    scene = build("point_lens", 'render.effects=["-levels", "lens:+fresnel"]').scene
+    lens = scene.objects["lens"]
+    assert document_of(scene).render.effects == ("-levels", "lens:+fresnel")
+    lens.name = "my lens"
+    spec = document_of(scene)
+    assert spec.render.effects == ("-levels",)
+    plan_effects(spec)
+    lens.name = "lens"
+    assert document_of(scene).render.effects == ("-levels", "lens:+fresnel")
+
+
 def test_scaled_element_is_told(build: Build) -> None:
     scene = build("holographic_sight").scene
     item = next(o for o in scene.objects if o.hologram.role == "card" or o.hologram.role == "block")
@@ -128,6 +161,27 @@ def test_missing_parts_are_told(build: Build) -> None:
         device_of(scene)
     with pytest.raises(SpecError, match="holds no device"):
         document_of(bpy.data.scenes.new("Empty"))
+
+
+@pytest.mark.parametrize(
+    ("name", "hologram", "path"),
+    [
+        ("hud_combiner", "combiner", "combiner.hologram"),
+        ("two_hologram_ar", "out_coupler", "holograms[1] (out_coupler)"),
+        ("diffractive_achromat", "achromat lens back", "achromat lens.back.hologram"),
+    ],
+)
+def test_a_mistake_in_a_hologram_says_in_which(
+    build: Build, name: str, hologram: str, path: str
+) -> None:
+    scene = build(name).scene
+    properties = bpy.data.materials[hologram].hologram
+    for part in (properties.recording, properties.characteristic):
+        part.wavelength_nm = math.nan
+    with pytest.raises(SpecError) as caught:
+        document_of(scene)
+    told = rf"{re.escape(path)}: \w+\.wavelength_nm: must be "
+    assert re.match(told, str(caught.value))
 
 
 def test_document_survives_a_file(build: Build, tmp_path: Path) -> None:

@@ -11,12 +11,15 @@ import bpy
 import pytest
 
 from hoe_addon.blender import readiness
+from hoe_addon.blender.build import meshes
 from hoe_addon.blender.build.device import build_device
 from hoe_addon.blender.document.holding import hold
 from hoe_addon.blender.props.device import VERSION
+from hoe_addon.blender.props.made import is_stale
 from hoe_addon.blender.props.sync import hologram_node, refresh_changed
 from hoe_addon.blender.readiness import Mend, mend, troubles
 from hoe_addon.blender.shaders import osl
+from hoe_addon.core.errors import SpecError
 from hoe_addon.model.document import find_device, load_device
 
 PRESET = "two_hologram_ar"
@@ -223,3 +226,38 @@ def test_quick_enough_to_be_drawn(scene: Any) -> None:
             troubles(scene)
         seconds.append((time.process_time() - start) / 10)
     assert statistics.median(seconds) < DRAWN_S
+
+
+def test_holograms_of_other_scenes_are_not_told(scene: Any) -> None:
+    other = bpy.data.scenes.new("other")
+    broken = bpy.data.materials["in_coupler"].copy()
+    meshes.add(other.collection, meshes.rectangle("Plate", 40.0, 40.0), broken)
+    broken.hologram.frame.x = (0.0, 0.0, 0.0)
+    refresh_changed()
+    assert broken.hologram.problem
+    assert troubles(scene) == ()
+    assert any(broken.hologram.problem in trouble.words for trouble in troubles(other))
+
+
+def test_a_patch_that_no_face_has_yet_is_told(scene: Any) -> None:
+    bare = bpy.data.materials["in_coupler"].copy()
+    scene.hologram.patches[0].material = bare
+    bare.hologram.problem = "broken"
+    assert "broken" in the_trouble(scene).words
+
+
+def test_refresh_mends_the_others_where_one_fails(scene: Any) -> None:
+    """The first of them by name fails."""
+    invalid, stale = (bpy.data.materials[name] for name in ("in_coupler", "out_coupler"))
+    spoil_shader(scene)
+    invalid.hologram.frame.x = (0.0, 0.0, 0.0)
+    stale.hologram.recording.wavelength_nm = 600.0
+    if bpy.app.timers.is_registered(readiness.changes._tell):
+        bpy.app.timers.unregister(readiness.changes._tell)
+    refresh = next(each for each in troubles(scene) if each.mend == Mend.REFRESH)
+    with pytest.raises(SpecError, match="frame: must have two unit axes"):
+        mend(scene, refresh)
+    assert not is_stale(stale)
+    assert readiness.changes.is_changed(invalid)
+    assert not readiness.changes.is_changed(stale)
+    assert invalid.hologram.problem

@@ -23,8 +23,12 @@ from hoe_addon.model.quality import QualitySpec
 PRESET = "grating_rainbow"
 
 METRICS = {
-    "picture": {"mean_cd_m2": 1.0},
-    "emitters": {"mean_cd_m2": 1.0, "peak_cd_m2": 2.0},
+    "picture": {"mean_cd_m2": 1.0, "mean_standard_error_at_most_cd_m2": 0.04},
+    "emitters": {
+        "mean_cd_m2": 1.0,
+        "peak_cd_m2": 2.0,
+        "mean_standard_error_at_most_cd_m2": None,
+    },
     "samples": 4,
     "seconds": 0.5,
 }
@@ -73,6 +77,14 @@ def test_time_that_set_up_took_is_told(
     assert rendered(_reached(1.0, 9.3, too_few=False)) == 0
     said = capsys.readouterr().out
     assert "1 s was passed: set-up alone, with the first samples, took 9.3 s" in said
+
+
+def test_means_are_told_with_their_errors(
+    rendered: Callable[[Reached], int], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert rendered(_reached(5.0, 4.8, too_few=False)) == 0
+    said = capsys.readouterr().out
+    assert "picture: mean 1.0 +- 0.04 cd/m2; light of displays and lamps: mean 1.0, peak" in said
 
 
 def test_time_that_was_kept_is_not_told(

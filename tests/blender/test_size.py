@@ -10,7 +10,7 @@ import pytest
 
 from hoe_addon import resources
 from hoe_addon.blender.add import bodies, emitters, eye, hologram
-from hoe_addon.blender.add.presets import add_device
+from hoe_addon.blender.add.presets import add_device, add_scene
 from hoe_addon.blender.document.held import document_of
 from hoe_addon.blender.document.live import settle, settle_changed
 from hoe_addon.blender.document.size import enlargement, set_size
@@ -178,6 +178,71 @@ def test_no_size_is_refused(metres: Any, times: float) -> None:
         set_size(metres, times)
 
 
+def test_size_that_is_refused_changes_nothing(registered: Any) -> None:
+    scene = add_scene("hud_combiner")
+    scene.objects["combiner"].scale = (2.0, 2.0, 2.0)
+    with pytest.raises(HoeError, match=r"^combiner\.scale"):
+        set_size(scene, 3.0)
+    assert enlargement(scene) == 1.0
+
+
 def test_scene_without_a_device_has_no_size(metres: Any) -> None:
     with pytest.raises(HoeError, match="holds no device"):
         set_size(metres)
+
+
+STRETCHED = [(1.0, 2.0, 1.0), (0.5, 1.0, 1.5), (0.0, 0.0, 0.0)]
+
+
+@pytest.mark.parametrize("preset", ["point_lens", "two_hologram_ar"])
+@pytest.mark.parametrize("scale", STRETCHED)
+@pytest.mark.parametrize("part", ["root", "eye"])
+def test_stretched_device_is_told(metres: Any, preset: str, scale: Any, part: str) -> None:
+    added = add_device(metres, preset)
+    item = getattr(added, part)
+    held, whole = metres.hologram, tuple(item.scale)
+    settle(metres)
+    for wanted, problem in ((scale, f"{part}.scale: must be the same along all axes"), (whole, "")):
+        changes.forget(metres)
+        item.scale = wanted
+        metres.view_layers[0].update()
+        assert changes.is_changed(metres), "a handler has seen it"
+        settle_changed(frozenset((metres.session_uid,)))
+        assert held.problem.startswith(problem)
+        assert bool(held.problem) == bool(problem)
+
+
+def test_sheared_device_is_told(metres: Any) -> None:
+    root = add_device(metres, "point_lens").root
+    above = bpy.data.objects.new("Above", None)
+    metres.collection.objects.link(above)
+    above.scale, root.rotation_euler, root.parent = (1.0, 1.0, 2.0), (0.6, 0.5, 0.4), above
+    with pytest.raises(HoeError, match=r"^root.scale: must be the same along all axes"):
+        settle(metres)
+
+
+@pytest.mark.parametrize("scale", [(2.0, 2.0, 2.0), (-1.0, 1.0, 1.0)])
+def test_enlarged_and_mirrored_devices_are_whole(registered: Any, scale: Any) -> None:
+    add_device(registered, "hud_combiner").root.scale = scale
+    settle(registered)
+    assert registered.hologram.problem == ""
+
+
+def test_turning_is_no_new_size(registered: Any) -> None:
+    root = add_device(registered, "hud_combiner").root
+    root.scale = (1.23455,) * 3
+    assert set(settle(registered)) == {"pupil", "room"}
+    for step in range(20):
+        root.rotation_euler = (0.1 * step, 0.2 * step, 0.3 * step)
+        assert settle(registered) == ()
+    root.scale = (1.2347,) * 3
+    assert set(settle(registered)) == {"pupil", "room"}, "small steps are not lost"
+
+
+def test_small_steps_add_up(registered: Any) -> None:
+    root = add_device(registered, "hud_combiner").root
+    times_made = 0
+    for step in range(20):
+        root.scale = (1.0 + 3e-5 * step,) * 3
+        times_made += "room" in settle(registered)
+    assert times_made == 4

@@ -15,6 +15,7 @@ from msgspec.structs import replace
 from hoe_addon.blender.add.presets import add_scene
 from hoe_addon.blender.document import live
 from hoe_addon.blender.document.held import device_of, document_of
+from hoe_addon.blender.ids import Role
 from hoe_addon.core.errors import HoeError
 from hoe_addon.model.document import load_device
 from tests.strangers.judging import Case, assert_faultless, judge, unclear
@@ -83,7 +84,7 @@ def some_value(rng: random.Random, group: Any, prop: Any) -> Any:
 def change(rng: random.Random) -> tuple[str, Callable[[], None]]:
     """Change one thing; return what, and what takes it back."""
     scene = bpy.context.scene
-    owners = [scene, scene, *(item for item in scene.objects if item.hologram.role != "NONE")]
+    owners = [scene, scene, *(item for item in scene.objects if item.hologram.role != Role.NONE)]
     owner = rng.choice(owners)
     if owner != scene and rng.random() < 0.1:
         return changed(owner, "scale", [rng.choice((0.0, 1.0, -1.0, 1e30)) for _ in range(3)])
@@ -93,11 +94,12 @@ def change(rng: random.Random) -> tuple[str, Callable[[], None]]:
 
 
 def fields(group: Any) -> list[Any]:
-    """Properties of a group that are no groups themselves."""
+    """Properties of a group that a file can hold and that are no groups themselves."""
     return [
         prop
         for prop in group.bl_rna.properties
         if prop.identifier not in ("rna_type", "name")
+        and not prop.is_readonly
         and prop.type != "COLLECTION"
         and not (prop.type == "POINTER" and "HOE_PG" in prop.fixed_type.identifier)
     ]

@@ -4,7 +4,9 @@
 
 ``version_1_first`` is a light guide in spectral colours, written when materials first had
 properties; ``version_1_last`` one at a single wavelength, written just before scenes held their
-documents. Beside each stand the sockets and the picture that the version itself gave. ``NAME.N``
+documents. Beside each stand the sockets and the picture that the version itself gave. ``version_2``
+is a scene with a room, of the time when things made here had no marks; beside it stand its document
+and its picture. ``NAME.N``
 are the documents as they were published, each form of them once.
 """
 
@@ -17,18 +19,23 @@ import numpy as np
 import OpenImageIO as oiio  # noqa: N813  (the name that its own documentation uses)
 import pytest
 
+from hoe_addon.blender.add.presets import add_scene
 from hoe_addon.blender.document import versions
+from hoe_addon.blender.document.held import document_of
+from hoe_addon.blender.document.live import settle
 from hoe_addon.blender.ids import Role
+from hoe_addon.blender.marks import is_made
 from hoe_addon.blender.pictures.render_settings import write_float_exr
 from hoe_addon.blender.props.device import VERSION
 from hoe_addon.blender.props.made import is_stale
 from hoe_addon.blender.props.sync import hologram_node, read_spec, refresh, refresh_changed
 from hoe_addon.core.errors import HoeError, SpecError
-from hoe_addon.model.document import SCHEMA, device_from, hologram_from
+from hoe_addon.model.document import SCHEMA, device_from, hologram_from, to_document
 
 FILES = Path(__file__).parents[1] / "files"
 FIRST, LAST = FILES / "version_1_first.blend", FILES / "version_1_last.blend"
 OLD = (FIRST, LAST)
+SECOND = FILES / "version_2.blend"
 DOCUMENTS = sorted(FILES.glob("*.[0-9].json"))
 
 ROUNDING = 2e-7
@@ -98,6 +105,43 @@ def test_from_1_to_2_the_scene_knows_its_parts(registered: Any, path: Path) -> N
         assert scene.hologram.eye.camera == scene.camera
     for material in holograms().values():
         assert "Stand-In" in material.node_tree.nodes
+
+
+@pytest.mark.parametrize("name", ["diffractive_achromat", "holographic_sight", "two_hologram_ar"])
+def test_from_2_to_3_what_was_made_is_told_from_what_is_the_users(
+    registered: Any, name: str
+) -> None:
+    scene = add_scene(name)
+    room = scene.hologram.room
+    vase = bpy.data.objects.new("Wall", bpy.data.meshes.new("Cube"))
+    sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
+    parts = set(room.collection.objects)
+    for own in (vase, sun):
+        room.collection.objects.link(own)
+    for item in parts:
+        item.hologram.role = Role.NONE
+    made = {each for each in (*bpy.data.materials, *bpy.data.meshes) if is_made(each)}
+    for block in made:
+        del block["hoe_made"]
+    scene.hologram.version = 2
+    versions.migrate_file()
+    assert scene.hologram.version == VERSION
+    assert parts
+    assert {item.hologram.role for item in parts} == {Role.ROOM}
+    assert vase.hologram.role == sun.hologram.role == Role.NONE
+    for item in scene.objects:
+        if item.hologram.role in (Role.CARD, Role.DISPLAY, Role.LENS, Role.PART, Role.FILTER):
+            assert all(map(is_made, (item.data, *item.data.materials))), item.name
+
+
+def test_the_stored_file_of_version_2_opens_whole(registered: Any) -> None:
+    scene = opened(SECOND)
+    assert scene.hologram.version == VERSION
+    assert to_document(document_of(scene)) == expected(SECOND)["document"]
+    room = scene.hologram.room.collection
+    assert room.objects
+    assert {item.hologram.role for item in room.objects} == {Role.ROOM}
+    assert set(settle(scene)) <= {"pupil"}, "it is what its document says"
 
 
 def test_migrating_twice_changes_nothing(registered: Any) -> None:
@@ -174,7 +218,7 @@ def test_documents_of_the_next_version_are_refused(path: Path) -> None:
 
 
 @pytest.mark.render
-@pytest.mark.parametrize("path", OLD, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", (*OLD, SECOND), ids=lambda path: path.stem)
 def test_an_old_file_shows_the_old_picture(registered: Any, path: Path, tmp_path: Path) -> None:
     scene = opened(path)
     scene.cycles.samples = 1024

@@ -45,7 +45,9 @@ def test_nine_luminances_agree_with_a_forward_walk(clean_scene: bpy.types.Scene)
     assert np.all(rows[:, 0] < 0.2 * rows[:, 2])
 
 
-def test_command_writes_sheet_numbers_and_views(tmp_path: Path) -> None:
+def test_command_writes_sheet_numbers_and_views(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     options = ["--size", "32x24", "--samples", "2", "--field-samples", "8", "--no-denoise"]
     changes = ["--grid", "2x1", "--pitch-mm", "8,2", "--set", "room.kind=none"]
     assert main(["eyebox", PRESET, "--out", str(tmp_path), *options, *changes]) == 0
@@ -53,8 +55,15 @@ def test_command_writes_sheet_numbers_and_views(tmp_path: Path) -> None:
     assert report["grid"] == [2, 1]
     assert [position["pupil_mm"] for position in report["positions"]] == [[-4, 0, 0], [4, 0, 0]]
     for position in report["positions"]:
+        for name in ("standard_error_cd_m2", "min_standard_error_cd_m2"):
+            assert position[name] > 0.0
+        assert position["uniformity_standard_error"] > 0.0
         assert position["min_cd_m2"] + 1e-9 > 0.0
         assert position["min_cd_m2"] <= position["mean_cd_m2"] <= position["max_cd_m2"]
+    assert report["eyebox_uniformity_standard_error"] > 0.0
+    said = capsys.readouterr().out
+    assert f"{report['eyebox_uniformity']:.3f} +- " in said
+    assert "noisy, use more field samples" in said
     names = {path.name for path in (tmp_path / "views").iterdir()}
     assert names == {f"row1_column{n}.{kind}" for n in (1, 2) for kind in ("exr", "png")}
     assert (tmp_path / "eyebox.png").stat().st_size > 1000

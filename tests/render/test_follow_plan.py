@@ -52,6 +52,9 @@ def test_same_picture_as_built_by_the_plan(registered: Any, name: str) -> None:
     bpy.context.window.scene = scene
     held = build_device(scene, whole(spec), resources.PRESETS_DIR)
     hold(DeviceScene(**{**vars(held), "spec": spec}))
+    mine = bpy.data.objects.new("Mine", bpy.data.cameras.new("Mine"))
+    scene.collection.objects.link(mine)
+    scene.camera = mine
     again = device_of(scene)
     followed = follow_plan(again, plan_effects(again.spec))
     assert len(followed.plan.left_out) == len(plan.left_out)

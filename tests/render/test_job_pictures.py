@@ -92,17 +92,36 @@ def until(found: Callable[[], Any]) -> None:
 @pytest.mark.parametrize("name", ["holographic_sight", "two_hologram_ar"])
 def test_picture_is_that_of_the_command_line(held: Hold, tmp_path: Path, name: str) -> None:
     scene = held(name, *FEW)
+    folder = as_by_command(scene, tmp_path, (32, 24))
+    assert sorted(path.name for path in folder.iterdir()) == sorted(VIEW_FILES)
+
+
+@pytest.mark.parametrize(
+    ("sides", "percentage", "size"), [((64, 48), 50, (32, 24)), ((100, 83), 29, (29, 24))]
+)
+def test_percentage_of_the_resolution_counts(
+    held: Hold, tmp_path: Path, sides: tuple[int, int], percentage: int, size: tuple[int, int]
+) -> None:
+    scene = held("holographic_sight", *FEW)
+    scene.render.resolution_x, scene.render.resolution_y = sides
+    scene.render.resolution_percentage = percentage
+    folder = as_by_command(scene, tmp_path, size)
+    assert exr.read(folder / "view.exr").shape == (size[1], size[0], 3)
+
+
+def as_by_command(scene: bpy.types.Scene, tmp_path: Path, size: tuple[int, int]) -> Path:
+    """Render by the button and by the command; the folder of the first."""
     (tmp_path / "device.json").write_text(json.dumps(to_document(document_of(scene))))
     assert bpy.ops.hologram.render() == {"FINISHED"}
     folder = tmp_path / "renders" / "Scene" / "render_001"
-    assert sorted(path.name for path in folder.iterdir()) == sorted(VIEW_FILES)
     image = bpy.data.images["Hologram Render"]
-    assert tuple(image.size) == (32, 24)
+    assert tuple(image.size) == size
     device, out = str(tmp_path / "device.json"), str(tmp_path / "out")
     assert main(["render", device, "--out", out, "--no-denoise"]) == 0
     ours, theirs = exr.read(folder / "view.exr"), exr.read(tmp_path / "out" / "view.exr")
     assert np.mean(theirs) > 0.0
     assert np.mean(np.abs(ours - theirs)) <= ROUNDING * np.mean(theirs)
+    return folder
 
 
 def test_change_that_the_window_has_not_followed_yet_is_in_the_picture(

@@ -147,7 +147,7 @@ def test_preset_as_a_device(scene: Any) -> None:
     assert root.hologram.role == "root"
     assert tuple(root.location) == (10.0, 20.0, 30.0)
     assert_undone_and_redone(before)
-    with pytest.raises(RuntimeError, match="holds a device already; add this one as a scene"):
+    with pytest.raises(RuntimeError, match="holds a device already; delete all of it, or add"):
         call(Op.ADD_PRESET, preset="point_lens", place="DEVICE")
 
 
@@ -205,3 +205,38 @@ def test_menus_come_and_go(clean_scene: Any) -> None:
     hoe_addon.unregister()
     assert [len(menu._dyn_ui_initialize()) for menu in menus] == before
     assert not any(hasattr(bpy.types, menu) for menu in Menu)
+
+
+def test_small_things_in_a_large_view_are_shown(view: Any) -> None:
+    scene = bpy.context.scene
+    scene.unit_settings.scale_length = 1.0
+    bpy.ops.mesh.primitive_cube_add(size=2.0)
+    scene.cursor.location = (0.1, 0.2, 0.3)
+    done(Op.ADD_PRESET, preset="holographic_sight", place="DEVICE")
+    root = bpy.context.object
+    region = view.region_3d
+    assert 0.01 < region.view_distance < 1.0
+    assert (region.view_location - root.location).length < 0.5
+    assert view.clip_start < 0.01
+
+
+def test_view_stays_where_something_new_is_seen_well(view: Any) -> None:
+    region = view.region_3d
+    region.view_perspective, region.view_distance = "PERSP", 100.0
+    region.view_location = (0.0, 0.0, 0.0)
+    done(Op.ADD_SLAB)
+    assert region.view_distance == 100.0
+    assert tuple(region.view_location) == (0.0, 0.0, 0.0)
+
+
+def test_body_around_the_eye_is_told(registered: Any, capfd: pytest.CaptureFixture[str]) -> None:
+    bpy.ops.mesh.primitive_cube_add(size=2.0)
+    call(Op.ADD_PRESET, preset="holographic_sight", place="DEVICE")
+    assert "the eye stands inside Cube: move one of them" in capfd.readouterr().out
+
+
+def test_new_scene_has_its_hologram_selected(registered: Any) -> None:
+    done(Op.ADD_PRESET, preset="holographic_sight", place="SCENE")
+    assert bpy.context.object.hologram.role == "hologram"
+    done(Op.ADD_PRESET, preset="two_hologram_ar", place="SCENE")
+    assert bpy.context.object == bpy.context.scene.hologram.guide.plate

@@ -13,10 +13,14 @@ from msgspec.structs import replace
 
 from hoe_addon.blender.add.presets import add_scene
 from hoe_addon.blender.build.guide import FIRST_PATCH
+from hoe_addon.blender.document import remake
+from hoe_addon.blender.document.chosen_effects import choose
 from hoe_addon.blender.document.held import document_of
+from hoe_addon.core.errors import HoeError
 from hoe_addon.model.default_patch import default_patch
 from hoe_addon.model.device import LightGuideSpec
 from hoe_addon.model.document import load_device, to_document
+from hoe_addon.model.effects import plan_effects
 
 CLOSE = 1e-6
 """Relative; properties are float32."""
@@ -115,6 +119,55 @@ def test_hologram_under_the_display_stays(guide: Any) -> None:
     with pytest.raises(RuntimeError, match="choose another In-Coupler first"):
         bpy.ops.hologram.remove_patch()
     assert names(guide) == ["in_coupler", "out_coupler"]
+
+
+def entries(scene: Any) -> list[tuple[Any, ...]]:
+    return [(patch.to_document(), patch.material) for patch in scene.hologram.patches]
+
+
+def test_removal_that_is_refused_changes_nothing(show: Callable[[str], Any]) -> None:
+    scene = show("three_hologram_ar")
+    choose(scene, "haze", "expander", on=True)
+    scene.hologram.patches[2].center_mm[0] = 1e4
+    before, slots = entries(scene), plate_slots(scene)
+    scene.hologram.active_patch = 1
+    with pytest.raises(RuntimeError, match="must keep the patch on the guide"):
+        bpy.ops.hologram.remove_patch()
+    assert entries(scene) == before
+    assert plate_slots(scene) == slots
+    assert scene.hologram.active_patch == 1
+    assert [entry.name for entry in scene.hologram.render.effects] == ["expander:+haze"]
+    assert "must keep the patch on the guide" in scene.hologram.problem
+
+
+def test_adding_that_fails_changes_nothing(guide: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    before, slots, materials = entries(guide), plate_slots(guide), set(bpy.data.materials)
+    faces = len(guide.hologram.guide.plate.data.polygons)
+    refresh = remake.refresh
+
+    def refresh_the_old_ones(material: Any) -> None:
+        if material not in materials:
+            raise HoeError("no shader")
+        refresh(material)
+
+    monkeypatch.setattr(remake, "refresh", refresh_the_old_ones)
+    with pytest.raises(RuntimeError, match="no shader"):
+        bpy.ops.hologram.add_patch(purpose="out")
+    assert entries(guide) == before
+    assert plate_slots(guide) == slots
+    assert set(bpy.data.materials) == materials
+    assert len(guide.hologram.guide.plate.data.polygons) == faces
+    assert guide.hologram.problem == ""
+
+
+def test_choices_for_a_hologram_go_with_it(show: Callable[[str], Any]) -> None:
+    scene = show("three_hologram_ar")
+    for hologram in ("", "expander", "out_coupler"):
+        choose(scene, "haze", hologram, on=True)
+    scene.hologram.active_patch = 2
+    bpy.ops.hologram.remove_patch()
+    assert [entry.name for entry in scene.hologram.render.effects] == ["+haze", "expander:+haze"]
+    plan_effects(document_of(scene))
 
 
 def test_undo_and_redo_of_holograms(guide: Any) -> None:

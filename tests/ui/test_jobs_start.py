@@ -202,12 +202,18 @@ class TestOperators:
         with pytest.raises(RuntimeError, match="No job is at work"):
             bpy.ops.hologram.cancel()
 
+    def test_without_an_eye_nothing_is_rendered(self, device: Any) -> None:
+        assert bpy.ops.hologram.render.poll()
+        device.hologram.eye.camera = None
+        with pytest.raises(RuntimeError, match="This scene has no eye; add one"):
+            bpy.ops.hologram.render()
+
     def test_document_that_is_not_valid_is_told_before_anything(
         self, device: Any, tmp_path: Path
     ) -> None:
         bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "mine.blend"))
-        device.hologram.eye.camera = None
-        with pytest.raises(RuntimeError, match="eye: must be a camera"):
+        device.hologram.eye.camera.scale = (1.0, 2.0, 1.0)
+        with pytest.raises(RuntimeError, match=r"eye\.scale: must be the same"):
             bpy.ops.hologram.render()
         assert not (tmp_path / "renders").exists()
 
@@ -249,6 +255,36 @@ def test_picture_is_loaded_once_and_anew(clean_scene: Any, tmp_path: Path) -> No
         assert image.use_view_as_render
         assert image.pixels[0] == value
     assert len(bpy.data.images) == 1
+
+
+def test_picture_of_the_user_with_our_name_stays(clean_scene: Any, tmp_path: Path) -> None:
+    mine = bpy.data.images.new(pictures.PICTURE, 4, 4)
+    path = tmp_path / "view.exr"
+    exr.write(path, np.full((4, 6, 3), 0.5, dtype=np.float32))
+    first, second = (pictures.load_picture(path, pictures.PICTURE) for _ in range(2))
+    assert first == second != mine
+    assert mine.source == "GENERATED"
+    assert len(bpy.data.images) == 2
+
+
+def test_end_is_told_anew_where_blender_has_ended_the_telling(
+    device: Any, asleep: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    job = launch.launch(JobKind.RENDER, "Render", device)
+    told: list[str] = []
+    fake = SimpleNamespace(job_ended=told.append)
+    monkeypatch.setattr(current.bpy.ops, "hologram", fake, raising=False)
+    current.begin(job)
+    try:
+        job.process.end()
+        assert not job.is_running
+        assert current._look() == current._look() == pytest.approx(0.1)
+        assert told == ["INVOKE_DEFAULT"] * 2
+        assert current.take_ended() is job
+        assert current._look() is None
+    finally:
+        current.unregister()
+        job.discard()
 
 
 def drawn() -> list[Call]:

@@ -11,12 +11,15 @@ import pytest
 from msgspec.structs import replace
 
 from hoe_addon.blender.add.presets import add_scene
-from hoe_addon.blender.ids import Goal, Role
+from hoe_addon.blender.ids import Goal, Primaries, Role
+from hoe_addon.core.spectrum import DISPLAY_PRIMARIES
 from hoe_addon.model.document import load_device
 from hoe_addon.model.field import field_degrees
 from hoe_addon.ui.facts.device import in_metres, lines_of
 from hoe_addon.ui.facts.scenes import DEVICE_FACTS
 from hoe_addon.ui.ids import Menu, Op
+from hoe_addon.ui.overlay import state
+from hoe_addon.ui.overlay.document import OF_EYE, Kind
 from hoe_addon.ui.panels import progress
 from tests.ui.layouts import Drawn, draw, own_panels
 
@@ -109,6 +112,56 @@ def test_selected_element_has_its_own_fields(
     assert panel("device_element") is None
 
 
+def test_scene_without_an_eye_offers_one(registered: Any) -> None:
+    bpy.ops.hologram.add_lamp()
+    scene = bpy.context.scene
+    assert DEVICE_FACTS.update_now(scene).lines == ()
+    begin = drawn("device")
+    assert "no eye yet" in begin.words()
+    assert Op.ADD_EYE in begin.operators()
+    assert Op.LOOK_THROUGH_EYE not in begin.operators()
+    assert panel("device_eye") is None
+    assert not state.kinds_of(scene) & OF_EYE
+    bpy.ops.hologram.add_eye()
+    assert DEVICE_FACTS.update_now(scene).lines
+    assert Op.ADD_EYE not in drawn("device").operators()
+    assert panel("device_eye") is not None
+    assert state.kinds_of(scene) >= {Kind.PUPIL, Kind.CHIEF_RAYS}
+
+
+def test_primaries_are_chosen_from_a_menu(show: Callable[[str], Any]) -> None:
+    display = show("two_hologram_ar").hologram.engine.display
+    assert display.kind_of_primaries == Primaries.LED
+    assert "primaries" not in drawn("device_display").properties()
+    display.kind_of_primaries = Primaries.LASER
+    assert display.primaries == "laser_rgb"
+    display.kind_of_primaries = Primaries.OWN
+    lines = display.to_document()["primaries"]
+    assert lines[0] == {"centre_nm": 625.0, "fwhm_nm": 1.0}
+    assert display.kind_of_primaries == Primaries.OWN
+    assert "primaries" in drawn("device_display").properties()
+
+
+def test_every_set_of_primaries_is_in_the_menu() -> None:
+    assert set(Primaries) - {Primaries.OWN} == DISPLAY_PRIMARIES.keys()
+
+
+def test_lengths_carry_mm_in_scenes_of_any_unit(show: Callable[[str], Any]) -> None:
+    show("two_hologram_ar")
+    for name in ("device_lens", "device_guide", "device_eye"):
+        assert "mm" in [call.name for call in drawn(name).of("label")]
+    lengths = [
+        prop
+        for kind in bpy.types.PropertyGroup.__subclasses__()
+        if kind.__name__.startswith("HOE_PG_")
+        for prop in kind.bl_rna.properties
+        if prop.identifier.endswith("_mm")
+    ]
+    assert lengths
+    # A unit of Blender's would show 10 as 10 m where a scene is in metres.
+    assert {prop.unit for prop in lengths} == {"NONE"}
+
+
 def test_only_the_fields_that_count(show: Callable[[str], Any]) -> None:
     scene = show("two_hologram_ar")
     eye, display = scene.hologram.eye, scene.hologram.engine.display
@@ -138,11 +191,21 @@ def test_problem_stands_in_the_panel(show: Callable[[str], Any]) -> None:
     scene = show("two_hologram_ar")
     scene.hologram.patches[1].center_mm = (100.0, 0.0)
     facts = DEVICE_FACTS.update_now(scene)
-    assert "holograms[1].center_mm" in facts.problem
-    calls = drawn("device").calls
-    assert any(call.alert and "must keep the patch" in call.name for call in calls)
+    assert "holograms[1] (out_coupler).center_mm" in facts.problem
+    alerts = [call.name for call in drawn("device").calls if call.alert]
+    assert "must keep the patch" in " ".join(alerts)
+    assert "center_mm" not in " ".join(alerts)
     marked = {name for name in BODIES if _is_marked(name)}
     assert marked == {"device_holograms"}
+
+
+def test_problem_of_a_hologram_is_only_pointed_to(show: Callable[[str], Any]) -> None:
+    scene = show("holographic_sight")
+    scene.objects["window"].active_material.hologram.recording.object.follows = True
+    DEVICE_FACTS.update_now(scene)
+    words = drawn("device").words()
+    assert "Problem in the Recording of window" in words
+    assert "target" not in words
 
 
 def _is_marked(name: str) -> bool:
@@ -254,6 +317,6 @@ def test_running_job_has_progress_and_cancel(
 
 
 def test_subpanels_are_closed_at_first(registered: Any) -> None:
-    parts = [each for each in own_panels() if getattr(each, "bl_parent_id", "")]
+    parts = [each for each in own_panels() if getattr(each, "bl_parent_id", "").startswith("HOE_")]
     assert parts
     assert all("DEFAULT_CLOSED" in each.bl_options for each in parts)

@@ -68,14 +68,6 @@ def test_object_without_a_hologram_offers_to_make_one(plate: Any) -> None:
     assert draw(bpy.types.HOE_PT_hologram_recording_sidebar) is None
 
 
-def test_a_hologram_stands_right_below_the_surface(hologram: Any) -> None:
-    assert draw(bpy.types.HOE_PT_no_hologram_material) is None
-    # Blender's Surface has 0, its Line Art and Viewport Display have 10.
-    assert 0 < bpy.types.HOE_PT_hologram_material.bl_order < 10
-    # Where a material is none, most people look for something else.
-    assert bpy.types.HOE_PT_no_hologram_material.bl_order > 10
-
-
 def test_grating_in_numbers(hologram: Any) -> None:
     hologram.pattern = PatternKind.CHARACTERISTIC
     FACTS.update_now(hologram.id_data)
@@ -86,14 +78,29 @@ def test_grating_in_numbers(hologram: Any) -> None:
     assert "12.13\N{DEGREE SIGN} off, transmitted" in words
 
 
-def test_rings_have_no_lines_at_their_centre(hologram: Any) -> None:
+def test_rings_are_told_beside_their_centre(hologram: Any) -> None:
     hologram.pattern = PatternKind.CHARACTERISTIC
     hologram.characteristic.kind = CharacteristicKind.RADIAL
     hologram.characteristic.lines_per_mm = 625.0
     facts = FACTS.update_now(hologram.id_data)
-    assert [(line.label, line.value) for line in facts.grating] == [
-        ("Finest Period", "1.6 \N{MICRO SIGN}m")
-    ]
+    lines = {line.label: line.value for line in facts.grating}
+    assert lines["Period"] == "1.6 \N{MICRO SIGN}m"
+    assert lines["Lines"] == "625 per mm"
+    assert "Order +1" in lines
+    assert facts.efficiency
+    assert not facts.without_plot
+    for name in ("", "_efficiency"):
+        assert "At 10 mm from the centre" in shown(name).words()
+
+
+def test_hologram_that_gives_no_order_light_says_why_it_has_no_plot(hologram: Any) -> None:
+    hologram.efficiency.model = EfficiencyModel.CONSTANT
+    hologram.efficiency.shares.clear()
+    hologram.efficiency.shares.add().share = 0.0
+    facts = FACTS.update_now(hologram.id_data)
+    assert not facts.problem
+    assert "No order gets light" in facts.without_plot
+    assert not facts.plot
 
 
 def test_recording_shows_wavelength_with_its_colour(hologram: Any) -> None:
@@ -214,6 +221,21 @@ def test_lost_source_is_told_at_its_wave(hologram: Any) -> None:
     drawn = shown("_recording")
     alerted = [call.owner for call in drawn.calls if call.name == "target" and call.alert]
     assert alerted == [hologram.recording.reference]
+    assert "The reference wave follows no object" in drawn.words()
+    assert "recording.reference" not in drawn.words()
+    untick = [call for call in drawn.calls if call.text == "Untick Follow"]
+    assert [(call.owner, call.name) for call in untick] == [
+        (hologram.recording.reference, "follows")
+    ]
+
+
+def test_table_that_was_not_chosen_yet_is_no_fault(hologram: Any) -> None:
+    hologram.efficiency.model = EfficiencyModel.TABLE
+    FACTS.update_now(hologram.id_data)
+    asked = [call for call in shown("_efficiency").calls if call.name == "Choose a table file."]
+    assert asked
+    assert not any(call.alert for call in asked)
+    assert "To be chosen below, in Efficiency" in shown("").words()
 
 
 def test_rigorous_grating_asks_for_a_bake(hologram: Any) -> None:
@@ -260,3 +282,24 @@ def test_colours_of_wavelengths() -> None:
     assert green[1] == 1.0
     assert blue[2] == max(blue)
     assert len(set(beyond)) == 1
+
+
+def test_material_panels_stand_above_the_sockets(registered: Any) -> None:
+    assert bpy.types.HOE_PT_hologram_material.bl_parent_id == "CYCLES_PT_context_material"
+    above = "EEVEE_MATERIAL_PT_context_material"
+    assert bpy.types.HOE_PT_hologram_material_eevee.bl_parent_id == above
+    assert bpy.types.HOE_PT_hologram_recording_material.bl_parent_id == "HOE_PT_hologram_material"
+
+
+def test_material_panels_stand_by_themselves_without_cycles(clean_scene: Any) -> None:
+    import addon_utils
+
+    import hoe_addon
+
+    addon_utils.disable("cycles")
+    try:
+        hoe_addon.register()
+        assert bpy.types.HOE_PT_hologram_material.bl_parent_id == ""
+        hoe_addon.unregister()
+    finally:
+        addon_utils.enable("cycles")

@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 from hoe_addon.blender.props import changes
-from hoe_addon.model.document import hologram_from
+from hoe_addon.model.document import hologram_from, load_device
 from hoe_addon.model.evaluate import efficiencies, incident_direction
+from hoe_addon.model.scene_parts import HologramElement
 from hoe_addon.ui.facts.curves import ANGLES_DEG, WAVELENGTHS_NM, curves_of
 from hoe_addon.ui.facts.material import FACTS
 from hoe_addon.ui.facts.plot import SIZE, colour_of, plot_pixels
@@ -46,6 +47,14 @@ def test_curves_are_the_efficiencies(lens: dict[str, Any]) -> None:
         np.testing.assert_allclose(
             curves.by_wavelength[:, place], expected[:, place, side], atol=1e-12
         )
+
+
+def test_rings_have_curves_though_their_middle_has_none() -> None:
+    disc = load_device("compact_disc")
+    own = next(each for each in disc.elements if isinstance(each, HologramElement)).hologram
+    curves = curves_of(own)
+    assert {order for order, _ in curves.ways} == {-2, -1, 0, 1, 2}
+    assert np.nanmax(curves.by_angle) > 0.1
 
 
 def test_curves_by_angle(volume: dict[str, Any]) -> None:

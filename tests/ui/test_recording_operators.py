@@ -9,6 +9,7 @@ from typing import Any
 
 import bpy
 import pytest
+from mathutils import Matrix
 
 from hoe_addon.blender.ids import EfficiencyModel, WaveKind
 from hoe_addon.blender.props.sync import hologram_node, read_spec
@@ -60,6 +61,18 @@ def test_make_hologram(plate: Any) -> None:
     assert hologram_node(made) is not None
     assert read_spec(made).orders == (0, 1)
     assert not OPS.make_hologram.poll()
+
+
+def test_make_hologram_tells_its_true_focal_length(
+    plate: Any, capfd: pytest.CaptureFixture[str]
+) -> None:
+    plate.data.transform(Matrix.Scale(0.5, 4))
+    assert OPS.make_hologram() == {"FINISHED"}
+    wave = plate.active_material.hologram.recording.object
+    assert wave.beam == "converging"
+    told = f"a lens with a focal length of {-wave.position_mm[2]:.4g} mm at 532 nm"
+    assert told in capfd.readouterr().out
+    assert "converges to a point behind" in OPS.make_hologram.get_rna_type().description
 
 
 def test_add_and_remove_order(material: Any) -> None:

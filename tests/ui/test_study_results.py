@@ -77,6 +77,15 @@ def test_last_eyebox_study_is_shown(guide: Any) -> None:
     assert OLD not in words
 
 
+def test_errors_of_uniformities_are_shown(guide: Any) -> None:
+    """Results of older versions, as above, are read without them."""
+    positions = [{**each, "uniformity_standard_error": 0.03} for each in REPORT["positions"]]
+    keep(guide, {**REPORT, "eyebox_uniformity_standard_error": 0.01, "positions": positions})
+    words = drawn("study_eyebox").words()
+    assert "25 ± 1 % min/max" in words
+    assert "40 ± 3 %, worst pupil" in words
+
+
 def test_accuracy_is_shown(guide: Any) -> None:
     result = {"words": "5 settings measured", "page": "renders/accuracy.html"}
     keep_result(guide, JobKind.ACCURACY, result, plan_digest(document_of(guide)))

@@ -7,7 +7,9 @@ from unittest.mock import MagicMock
 
 import pytest
 
-from hoe_addon.cli import accuracy_page, accuracy_plot, accuracy_report
+from hoe_addon.cli import accuracy_page, accuracy_plot, accuracy_report, accuracy_table
+
+SPENT = {"total": 74.0, "reference": 40.0, "as_it_is": 20.0, "other_settings": 14.0}
 
 
 def point(seconds: float, error: float, *limited: str) -> dict[str, Any]:
@@ -50,8 +52,8 @@ def test_what_is_too_short_to_time_is_not_compared() -> None:
     assert sound["speed_up_standard_error"] == pytest.approx(2.0 * 0.02**0.5, rel=1e-5)
     assert sound["display_speed_up"] is None
     assert "speed_up" not in short
-    assert accuracy_report.time_of(runs[1], runs[1]["points"][0]) == "1 +-0.1"
-    assert accuracy_report.time_of(runs[2], runs[2]["points"][0]) == "?0.1 +-0.01"
+    assert accuracy_table.time_of(runs[1], runs[1]["points"][0]) == "1 +-0.1"
+    assert accuracy_table.time_of(runs[2], runs[2]["points"][0]) == "?0.1 +-0.01"
 
 
 def test_limited_values_are_hollow_in_the_main_diagram(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -85,6 +87,52 @@ def test_page_says_over_which_pixels_errors_are(what: str) -> None:
         "blender": "5",
         "hoe_addon": "1",
         "budget_seconds": 30.0,
+        "spent_seconds": SPENT,
     }
     said = accuracy_page._summary(report)
     assert f"32 x 24 pixels; errors over 217 of them ({what}). 2 threads" in said
+    assert "Time: 30 s asked, 74 s taken, set-up counted: reference 40 s, the device" in said
+
+
+NOTHING = {"value": None, "standard_error": None}
+
+
+def without_colour() -> dict[str, Any]:
+    """Report of a device whose lit picture has no region with a colour, and no mean of one."""
+    dark = {**point(1.0, 0.2), "worst_region": NOTHING, "colour": NOTHING, "display_error": None}
+    own = {"error": 0.05, "display_error": 0.0, "worst_region": None, "colour": None}
+    return {
+        "device": "holographic_sight",
+        "size": [48, 36],
+        "budget_seconds": 20.0,
+        "spent_seconds": SPENT,
+        "field": {"what": "where displays and lamps are seen", "pixels": 7},
+        "reference": {
+            "samples": 64,
+            "seconds": 9.0,
+            "own_errors": own,
+            "why_no_sharpness": "",
+        },
+        "runs": [
+            {
+                **run("", 0.01, dark),
+                "sharpness": NOTHING,
+                "all_samples": {"seconds_to_percent": None},
+            }
+        ],
+        "not_measured": [],
+    }
+
+
+def test_what_is_not_known_is_a_dash_in_table_and_page() -> None:
+    report = without_colour()
+    lines = accuracy_table.table(report)
+    assert "its own error: 5.00%, worst region -, u'v' -" in lines[1]
+    setting = next(line for line in lines if line.startswith(" 1"))
+    assert setting.split()[-4:] == ["-", "-", "-", "-"]
+    assert any(line.startswith("20 s asked, 74 s taken") for line in lines)
+    assert "u'v' -" in accuracy_page._about_reference(report["reference"])
+    row = "".join(accuracy_page._table(report))
+    assert row.count("<td>-</td>") == 2
+    assert "<td>- +- -</td>" in row
+    assert accuracy_report.written_csv({**report, "runs": []})

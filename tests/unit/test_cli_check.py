@@ -12,6 +12,8 @@ from hoe_addon.cli import main
 from hoe_addon.model.document import load_hologram
 from hoe_addon.model.evaluate import efficiencies, incident_direction
 
+LENS = Path(__file__).parents[1] / "documents" / "lens.json"
+
 SAME = 1e-12
 """The same number on two ways."""
 
@@ -146,3 +148,13 @@ def test_a_material_without_an_index_is_named(
     assert main(["check", str(path), "--wavelengths=532,600"]) == 2
     expected = f"hoe: error: {path}: efficiency.ridge: table holds no index at 600 nm"
     assert capsys.readouterr().err.startswith(expected)
+
+
+def test_light_that_a_scalar_model_loses_is_no_gain(capsys: pytest.CaptureFixture[str]) -> None:
+    [line] = [line for line in printed(capsys, str(LENS)) if "kinoform: R + T - 1" in line]
+    number, rest = line.removeprefix("  holds kinoform: R + T - 1 = ").split(
+        " (<= 1e-08): at most "
+    )
+    share, _, words = rest.partition(" % ")
+    assert float(share) == pytest.approx(100.0 * (1.0 + float(number)), rel=1e-4)
+    assert words == "of the light goes out, s or p, and no more than 100 % may"

@@ -19,8 +19,28 @@ HEAVY = ("numpy", "msgspec", "bpy", "tqdm")
 def test_help(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*arguments, "--help"]) == 0
     printed = capsys.readouterr()
-    assert printed.out.startswith("usage: hoe")
+    assert printed.out.startswith("usage: python -m hoe_addon")
     assert printed.err == ""
+
+
+@pytest.mark.parametrize(
+    ("command", "texts"),
+    [
+        ("render", ["pixels of a picture (default: of the document)", "at most this: 0.1 is 10 %"]),
+        ("render", ["per pixel (default: of the document)", "so long by the wall clock"]),
+        ("render", ["same picture (default: of the document)", "less time (default: of the"]),
+        ("eyebox", ["positions along x and y (default: of", "y in mm (default: of"]),
+        ("demo", ["(default: out/demo)"]),
+        ("bake", ["nm, two ends without a step, default 380:780"]),
+        ("efficiency", ["nm, A:B:STEP (B included) or a,b,c"]),
+    ],
+)
+def test_help_tells_units_and_defaults(
+    command: str, texts: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([command, "--help"]) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert [text for text in texts if text not in printed] == []
 
 
 def test_version(capsys: pytest.CaptureFixture[str]) -> None:

@@ -14,9 +14,8 @@ from hoe_addon.model.device import LightGuideSpec
 from hoe_addon.model.document import (
     device_from,
     dump,
-    find_device,
-    image_path,
     load_device,
+    picture_paths,
     preset_titles,
     to_document,
 )
@@ -44,12 +43,27 @@ BROKEN = [
     ("guide.thickness_mm=0", "guide.thickness_mm: must be above 0, got 0"),
     ("guide.relief_mm=-1", "guide.relief_mm: must be above 0, got -1"),
     ("guide.medium=0.5", "guide.medium: must be at least 1, got 0.5"),
-    ("guide.size_mm=[64, 10]", "holograms[0].center_mm[1]: must keep the patch on the guide in y"),
-    ("holograms.0.center_mm=[14, 0]", "holograms[1].center_mm: must keep the patch clear of in_c"),
-    ("holograms.1.name=in_coupler", 'holograms[1].name: must be used once, got "in_coupler"'),
-    ("holograms.1.face=top", "holograms[1].face: must be one of eye, world"),
-    ("holograms.1.recording.object.index=0", "holograms[1].recording.object.index: must be at l"),
-    ("holograms.in_coupler.orders=[0, 0]", "holograms[0].orders: must list each order once, got"),
+    (
+        "guide.size_mm=[64, 10]",
+        "holograms[0] (in_coupler).center_mm[1]: must keep the patch on the guide in y",
+    ),
+    (
+        "holograms.0.center_mm=[14, 0]",
+        "holograms[1] (out_coupler).center_mm: must keep the patch clear of in_c",
+    ),
+    (
+        "holograms.1.name=in_coupler",
+        'holograms[1] (in_coupler).name: must be used once, got "in_coupler"',
+    ),
+    ("holograms.1.face=top", "holograms[1] (out_coupler).face: must be one of eye, world"),
+    (
+        "holograms.1.recording.object.index=0",
+        "holograms[1] (out_coupler).recording.object.index: must be at l",
+    ),
+    (
+        "holograms.in_coupler.orders=[0, 0]",
+        "holograms[0] (in_coupler).orders: must list each order once, got",
+    ),
     ("holograms=[]", "holograms: must hold at least one hologram, got []"),
     ("source.patch=lost", "source.patch: must name a hologram (in_coupler, out_coupler), got"),
     ("display.luminance_cd_m2=-1", "display.luminance_cd_m2: must be at least 0, got -1"),
@@ -115,8 +129,8 @@ def test_own_file_with_its_picture(tmp_path: Path) -> None:
         load_device(path, ["display.image=photo.png"])
     (tmp_path / "photo.png").touch()
     spec = load_device(path, ["display.image=photo.png"])
-    assert image_path(spec.display, find_device(path).parent) == tmp_path / "photo.png"
-    assert image_path(load_device(AR).display, tmp_path) is None
+    assert picture_paths(spec, path.parent) == {"display.image": tmp_path / "photo.png"}
+    assert picture_paths(load_device(AR), tmp_path) == {}
 
 
 def test_override_by_index_and_by_name() -> None:

@@ -50,32 +50,51 @@ def test_too_many_elements_are_refused() -> None:
 
 
 BROKEN = [
-    ("elements.lamp.name=frame", 'elements[2].name: must be used once, got "frame"'),
-    ("elements.lamp.kind=torch", "elements[2].kind: must be one of "),
-    ("elements.lamp.shape=cube", "elements[2].shape: must be one of disc, line, rectangle, sph"),
-    ("elements.lamp.size_mm=[0, 1]", "elements[2].size_mm[0]: must be above 0, got 0"),
-    ("elements.lamp.luminance_cd_m2=-1", "elements[2].luminance_cd_m2: must be at least 0, got"),
-    ("elements.lamp.spectrum.illuminant=F2", "elements[2].spectrum.illuminant: must be one of "),
+    ("elements.lamp.name=frame", 'elements[2] (frame).name: must be used once, got "frame"'),
+    ("elements.lamp.kind=torch", "elements[2] (lamp).kind: must be one of "),
+    (
+        "elements.lamp.shape=cube",
+        "elements[2] (lamp).shape: must be one of disc, line, rectangle, sph",
+    ),
+    ("elements.lamp.size_mm=[0, 1]", "elements[2] (lamp).size_mm[0]: must be above 0, got 0"),
+    (
+        "elements.lamp.luminance_cd_m2=-1",
+        "elements[2] (lamp).luminance_cd_m2: must be at least 0, got",
+    ),
+    (
+        "elements.lamp.spectrum.illuminant=F2",
+        "elements[2] (lamp).spectrum.illuminant: must be one of ",
+    ),
     (
         'elements.lamp.spectrum={"kind": "line", "centre_nm": 300, "fwhm_nm": 1}',
-        "elements[2].spectrum.centre_nm: must be visible, from 380 to 780, got 300",
+        "elements[2] (lamp).spectrum.centre_nm: must be visible, from 380 to 780, got 300",
     ),
     (
         'elements.lamp.spectrum={"kind": "led", "centre_nm": 500, "fwhm_nm": 400}',
-        "elements[2].spectrum.fwhm_nm: must be below 166.667, a third of the centre, got 400",
+        "elements[2] (lamp).spectrum.fwhm_nm: must be below 166.667, a third of the centre, "
+        "got 400",
     ),
     (
         'elements.lamp.spectrum={"kind": "lines", "lines": [{"centre_nm": 1000, "power": 1}]}',
-        "elements[2].spectrum.lines: must have one from 380 to 780 nm, got 1",
+        "elements[2] (lamp).spectrum.lines: must have one from 380 to 780 nm, got 1",
     ),
-    ("elements.lamp.spectrum={}", "elements[2].spectrum.kind: is missing"),
-    ("elements.frame.rim_mm=0", "elements[1].rim_mm: must be above 0, got 0"),
-    ("elements.frame.rod_mm=-1", "elements[1].rod_mm: must be at least 0, got -1"),
-    ("elements.frame.color=[2, 0, 0]", "elements[1].color[0]: must be"),
-    ("elements.socket.size_mm=[1, 1]", "elements[3].size_mm: must be a list of length 3"),
-    ("elements.grating.position_mm=[0, 0]", "elements[0].position_mm: must be a list of length 3"),
-    ("elements.grating.hologram.orders=[0, 0]", "elements[0].hologram.orders: must list each"),
-    ("elements.grating.hologram.media.back=0.5", "elements[0].hologram.media.back: must be at"),
+    ("elements.lamp.spectrum={}", "elements[2] (lamp).spectrum.kind: is missing"),
+    ("elements.frame.rim_mm=0", "elements[1] (frame).rim_mm: must be above 0, got 0"),
+    ("elements.frame.rod_mm=-1", "elements[1] (frame).rod_mm: must be at least 0, got -1"),
+    ("elements.frame.color=[2, 0, 0]", "elements[1] (frame).color[0]: must be"),
+    ("elements.socket.size_mm=[1, 1]", "elements[3] (socket).size_mm: must be a list of length 3"),
+    (
+        "elements.grating.position_mm=[0, 0]",
+        "elements[0] (grating).position_mm: must be a list of length 3",
+    ),
+    (
+        "elements.grating.hologram.orders=[0, 0]",
+        "elements[0] (grating).hologram.orders: must list each",
+    ),
+    (
+        "elements.grating.hologram.media.back=0.5",
+        "elements[0] (grating).hologram.media.back: must be at",
+    ),
     ("gaze_deg=[0, 91]", "gaze_deg[1]: must be within 90, got 91"),
     ("room.kind=cave", "room.kind: must be one of "),
     ("eyebox.grid=[1, 1]", "eyebox: no such field, there is: "),

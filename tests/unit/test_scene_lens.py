@@ -79,7 +79,7 @@ def test_lens_reads_back_from_its_own_document() -> None:
     ],
 )
 def test_bad_lens_is_refused_where_the_mistake_is(changes: dict[str, Any], message: str) -> None:
-    with pytest.raises(SpecError, match=r"^elements\[0\]\." + message):
+    with pytest.raises(SpecError, match=r"^elements\[0\] \(lens\)\." + message):
         device_from(document(**changes))
 
 

@@ -13,7 +13,7 @@ import pytest
 
 from hoe_addon.core.efficiency import Incidence, Polarization
 from hoe_addon.core.efficiency.baking import bake
-from hoe_addon.core.efficiency.node_source import NodeSource, backward_source
+from hoe_addon.core.efficiency.node_source import NodeSource
 from hoe_addon.core.errors import CancelledError, NotMadeError, SpecError
 from hoe_addon.core.orders import Branch
 from hoe_addon.model.document import hologram_from
@@ -194,7 +194,8 @@ def test_backward_tables_hold_the_reversed_pair(rng: np.random.Generator) -> Non
             return np.stack([0.2 + 0.15 * x + 0.1 * light.from_front for _ in branches], axis=-1)
 
     source = NodeSource(Slanted(), WAYS, nothing_diffracted, 0.98)
-    baked = bake(backward_source(source), ("back", "front"), RANGES, TOLERANCE)
+    walked_back = replace(source, backward=True).polarised(source.polarization)
+    baked = bake(walked_back, ("back", "front"), RANGES, TOLERANCE)
     nodes = np.zeros((50, 6))
     nodes[:, 0] = rng.integers(2, size=50)
     nodes[:, 1] = 500e-9

@@ -99,6 +99,26 @@ class Run:
     picture: NDArray[np.floating]
 
 
+@dataclass(frozen=True)
+class Spent:
+    """Time by the clock that a measurement took, set-up of scenes included, in seconds.
+
+    Attributes:
+        reference: For the reference.
+        first: For the device as it is.
+        others: For all other settings.
+    """
+
+    reference: float
+    first: float
+    others: float
+
+    @property
+    def total(self) -> float:
+        """All together."""
+        return self.reference + self.first + self.others
+
+
 @dataclass(frozen=True, eq=False)
 class Accuracy:
     """What accuracy costs on one device.
@@ -113,6 +133,7 @@ class Accuracy:
         runs: Results, the device as it is first.
         not_measured: Settings without a result.
         stopped: Whether the user stopped before all was measured.
+        spent: Time that it took.
     """
 
     judge: "Judge"
@@ -124,6 +145,7 @@ class Accuracy:
     runs: tuple[Run, ...]
     not_measured: tuple[NotMeasured, ...]
     stopped: bool
+    spent: Spent
 
 
 class Judge:

@@ -28,10 +28,11 @@ from ..pictures.division import Division
 from ..pictures.render import Progress
 from ..pictures.view import View, clean_picture
 from .knobs import NotMeasured, Variant, reference_spec, variants
-from .results import Accuracy, Judge, Run
+from .results import Accuracy, Judge, Run, Spent
 from .shots import Shots, division_of
 from .target import sharpness, why_no_target
 from .timing import FixedTime, SampleTime
+from .watch import Watch
 
 type Opener = Callable[[DeviceSpec], DeviceScene]
 """Builds a device in a new, empty Blender file."""
@@ -46,6 +47,9 @@ _REFERENCE_SHARE = 0.5
 _BASE_WEIGHT = 3.0
 """Shares of the time that go to the device as it is, whose curve is that of the samples."""
 
+_PILOT_SHARE = 1.0 / 6.0
+"""A pilot that takes a larger part of the reference's time would not pay."""
+
 _PIECE_SHARE = 1.0 / 6.0
 """Samples of one piece of the reference take this part of its time at most: a stop is heard soon,
 and yet pieces are long beside what each costs for its own set-up."""
@@ -58,26 +62,6 @@ _NOISE_ROOM = 9
 
 _TARGET_SAMPLES = 2
 """Samples of the sharpness over those of the picture; its picture is much smaller."""
-
-
-class _Watch:
-    """The time that is left, and who wants to stop."""
-
-    def __init__(self, budget: float, stop: Callable[[], bool], progress: Progress | None) -> None:
-        self._started = time.perf_counter()
-        self.budget, self.stop, self._progress = budget, stop, progress
-
-    @property
-    def spent(self) -> float:
-        return time.perf_counter() - self._started
-
-    @property
-    def left(self) -> float:
-        return self.budget - self.spent
-
-    def tell(self) -> None:
-        if self._progress is not None:
-            self._progress(min(1.0, self.spent / self.budget))
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,10 +105,11 @@ def measure_accuracy(
         CancelledError: Stopped before there was a result.
         HoeError: The device cannot be built or rendered.
     """
-    watch = _Watch(budget, stop, progress)
+    watch = Watch(budget, stop, progress)
     seeds = itertools.count(spec.render.seed + 1)
     asked, missing = variants(spec)
     court = _reference(spec, build, watch, seeds)
+    watch.lap()
     runs: list[Run] = []
     groups = _same_device(asked)
     for place, group in enumerate(groups):
@@ -132,8 +117,9 @@ def measure_accuracy(
         share = watch.left * weight / (weight + len(groups) - place - 1)
         try:
             if place:
-                _refuse_when_over(watch)
+                watch.refuse_when_over()
             runs += _runs(group, build, court, watch, seeds, share)
+            watch.lap()
         except HoeError as error:
             if not runs:
                 raise
@@ -149,6 +135,7 @@ def measure_accuracy(
         runs=tuple(sorted(runs, key=lambda run: order[id(run.variant)])),
         not_measured=tuple(missing),
         stopped=stop(),
+        spent=Spent(watch.laps[0], watch.laps[1], watch.spent - sum(watch.laps[:2])),
     )
 
 
@@ -165,21 +152,14 @@ def _same_device(asked: Sequence[Variant]) -> list[list[Variant]]:
     return groups
 
 
-def _refuse_when_over(watch: _Watch) -> None:
-    if watch.stop():
-        raise CancelledError("stopped by the user")
-    if watch.left <= 0.0:
-        raise CancelledError(f"the budget of {watch.budget:g} s was used up")
-
-
-def _reference(spec: DeviceSpec, build: Opener, watch: _Watch, seeds: Iterator[int]) -> _Court:
+def _reference(spec: DeviceSpec, build: Opener, watch: Watch, seeds: Iterator[int]) -> _Court:
     """Render pairs of pictures while there is time."""
     best = reference_spec(spec)
     device = build(best)
-    shots = Shots(device, seeds, division_of(device))
+    until = _REFERENCE_SHARE * watch.budget
+    shots = Shots(device, seeds, division_of(device, seconds=_PILOT_SHARE * until))
     width, height = spec.render.size
     most = max(_FIRST_SAMPLES, _PIECE_PATHS // (width * height))
-    until = _REFERENCE_SHARE * watch.budget
     samples, stopped = _FIRST_SAMPLES, False
     while not stopped:
         for _ in range(2):
@@ -212,7 +192,7 @@ def _runs(
     group: Sequence[Variant],
     build: Opener,
     court: _Court,
-    watch: _Watch,
+    watch: Watch,
     seeds: Iterator[int],
     share: float,
 ) -> list[Run]:
@@ -234,7 +214,8 @@ def _runs(
         until = time.perf_counter() - started + samples * court.clock * sample.seconds
         if samples > most or until > share:
             samples = 0 if sample.is_known else _telling(shots, sample)
-            if samples <= shots.samples[-1]:
+            until = samples * court.clock * sample.seconds
+            if samples <= shots.samples[-1] or until > watch.left:
                 break
     if len(shots.views) <= 1:
         raise CancelledError("stopped by the user")

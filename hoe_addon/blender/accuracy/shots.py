@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Independent renders of one device, and how long its samples take without scene set-up."""
 
+import math
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -9,9 +10,12 @@ from dataclasses import dataclass, field, replace
 from ...core.picture_pieces import Pieces
 from ..build.device import DeviceScene
 from ..pictures.division import Division, divided
-from ..pictures.passes import is_divisible
+from ..pictures.passes import is_divisible, whole
 from ..pictures.view import View, render_view
 from .timing import FixedTime, SampleTime, sample_time
+
+_PILOT_RENDERS = 6
+"""Of the whole picture and of two passes, each with few samples and with some more."""
 
 
 @dataclass(eq=False)
@@ -94,13 +98,16 @@ class Shots:
         return Pieces([view.display for view in self.views], self.work)
 
 
-def division_of(device: DeviceScene, known: Division | None = None) -> Division:
+def division_of(
+    device: DeviceScene, known: Division | None = None, seconds: float = math.inf
+) -> Division:
     """Divide the picture of a device into passes.
 
     Args:
         device: The device in its scene.
         known: How that of a similar device is divided, which is taken over to save the pilot. The
             sum of the passes is the picture in any case, only its noise might be less.
+        seconds: Time that there is for a pilot; the picture stays whole where that is too short.
 
     Returns:
         The passes of the device.
@@ -108,6 +115,16 @@ def division_of(device: DeviceScene, known: Division | None = None) -> Division:
     Raises:
         RenderError: Blender gave no usable picture.
     """
-    if known is None or len(known.passes) == 1 or not is_divisible(device):
-        return divided(device)
+    one = Division((whole(device),), (1.0,), 1.0)
+    if not is_divisible(device):
+        return one
+    if known is None:
+        return divided(device) if _pilot_seconds(device) <= seconds else one
     return replace(known, passes=tuple(replace(each, device=device) for each in known.passes))
+
+
+def _pilot_seconds(device: DeviceScene) -> float:
+    """About how long a pilot takes: next to nothing but the set-up of its renders."""
+    begun = time.perf_counter()
+    whole(device).render(device.scene.cycles.seed, 0, 1)
+    return _PILOT_RENDERS * (time.perf_counter() - begun)

@@ -22,8 +22,10 @@ from ...core.picture_pieces import relative_luminance
 from ...model.device import DeviceSpec, LightGuideSpec
 from ...model.field import field_tangents
 from ..build.device import DeviceScene
+from ..kept import changed
 from ..pictures.denoiser import denoise
 from ..pictures.render import render_layers
+from ..pictures.render_settings import size_settings
 from ..pictures.view import DISPLAY_LAYER
 from ..shaders.materials import picture
 
@@ -113,19 +115,14 @@ def _target(device: DeviceScene, samples: int, seed: int) -> Iterator[None]:
         (texture, {"image": shown, "extension": "EXTEND"}),
         (device.room, {"hide_render": True}),
         (camera, {"sensor_width": 2.0 * camera.lens * half}),
-        (scene.render, {"resolution_x": _COLUMNS, "resolution_y": _ROWS}),
+        (scene.render, size_settings(_COLUMNS, _ROWS)),
         (
             scene.cycles,
             {"pixel_filter_type": "BOX", "filter_width": 1.0, "samples": samples, "seed": seed},
         ),
     )
-    kept = [(owner, name, getattr(owner, name)) for owner, new in groups for name in new]
     try:
-        for owner, new in groups:
-            for name, value in new.items():
-                setattr(owner, name, value)
-        yield
+        with changed(*groups):
+            yield
     finally:
-        for owner, name, value in kept:
-            setattr(owner, name, value)
         bpy.data.images.remove(shown)

@@ -22,7 +22,10 @@ from ...model.scene_parts import ElementSpec
 from ..build.lights import EMITTERS
 from ..build.stage import add_room, device_root
 from ..document import live
+from ..document.elements import rank_of
+from ..document.gone import clear_gone, is_gone
 from ..document.holding import hold_element
+from ..document.places import is_in
 from ..ids import DeviceKind, Mode, Role
 from ..pictures.render_settings import set_up
 from ..props import changes
@@ -41,6 +44,7 @@ def begin(scene: bpy.types.Scene) -> None:
     Raises:
         MissingOslError: This Blender, or the scene's device, cannot run OSL.
     """
+    clear_gone(scene)
     held = scene.hologram
     if held.kind == DeviceKind.NONE:
         with changes.unmarked():
@@ -60,7 +64,7 @@ def begin(scene: bpy.types.Scene) -> None:
         held.wavelength = spectrum(scene).group
         held.room.collection = add_room(scene, RoomSpec(kind="none", luminance_cd_m2=0.0), 1.0)
     root = held.root
-    if root is None or root.name not in scene.objects:
+    if root is None or not is_in(scene, root):
         held.root = device_root(scene.collection, units_per_mm(scene))
         held.root.hologram.role = Role.ROOT
 
@@ -143,7 +147,7 @@ def join(scene: bpy.types.Scene, item: bpy.types.Object, element: ElementSpec) -
         element: What it is.
     """
     if scene.hologram.kind == DeviceKind.SCENE:
-        hold_element(item, to_document(element), item.name)
+        hold_element(item, to_document(element), item.name, rank_of(scene, item))
     settle(scene)
 
 
@@ -172,7 +176,7 @@ def facts_of(item: bpy.types.Object) -> dict[str, Any]:
 def has_eye(scene: bpy.types.Scene) -> bool:
     """Tell whether the eye of a scene's document is there."""
     camera = scene.hologram.eye.camera
-    return camera is not None and camera.name in scene.objects
+    return camera is not None and is_in(scene, camera)
 
 
 def settle(scene: bpy.types.Scene) -> None:
@@ -193,7 +197,7 @@ def refuse_light_guide(scene: bpy.types.Scene, what: str) -> None:
     Raises:
         HoeError: The scene holds a light guide.
     """
-    if scene.hologram.kind == DeviceKind.LIGHT_GUIDE:
+    if scene.hologram.kind == DeviceKind.LIGHT_GUIDE and not is_gone(scene):
         raise HoeError(
             f"scene {scene.name}: holds a light guide, which has {what} of its own; "
             "use a scene without one"

@@ -44,6 +44,13 @@ class Patch:
     units_per_mm: float
 
     @property
+    def width_mm(self) -> float:
+        """The larger of their two sides."""
+        if isinstance(self.surface, PlaneSurface):
+            return max(self.surface.size_mm)
+        return float(np.ptp(np.asarray(self.surface.vertices_mm)[:, :2], axis=0).max())
+
+    @property
     def is_flat(self) -> bool:
         """Whether the faces are a plane."""
         return isinstance(self.surface, PlaneSurface)

@@ -101,7 +101,7 @@ def hologram_on_faces(
     faces: Sequence[int] | None = None,
     *,
     wavelength_nm: float = WAVELENGTH_NM,
-    distance_mm: float = DISTANCE_MM,
+    distance_mm: float | None = None,
 ) -> tuple[bpy.types.Material, tuple[str, ...]]:
     """Make faces of a mesh a hologram: a lens, its origin in their middle, its front outside.
 
@@ -112,7 +112,8 @@ def hologram_on_faces(
         item: A mesh object of it, in object mode.
         faces: Numbers of the faces; by default all.
         wavelength_nm: Vacuum wavelength of the recording.
-        distance_mm: Distance of the point behind the faces that the object wave runs to.
+        distance_mm: Distance of the point behind the faces that the object wave runs to; by
+            default as far for their width as on a plate of 40 mm.
 
     Returns:
         The material, and the names of the render settings that were changed.
@@ -131,7 +132,7 @@ def hologram_on_faces(
         spec = plain_hologram(
             patch.surface,
             wavelength_nm=wavelength_nm,
-            distance_mm=distance_mm,
+            distance_mm=distance_mm or DISTANCE_MM * patch.width_mm / SIZE_MM[0],
             back=back,
             name=f"{item.name} Hologram",
         )

@@ -8,7 +8,8 @@ from typing import Any
 
 import bpy
 
-from ..ids import DeviceKind
+from ..document.places import is_in
+from ..ids import DeviceKind, Role
 from ..units import use_millimetres
 
 _KEPT = (
@@ -77,9 +78,11 @@ def guest_of(scene: bpy.types.Scene) -> Iterator[list[str]]:
         scene: The user's scene.
 
     Yields:
-        A list; at the end it has the names of the render settings that were changed.
+        A list; at the end it has the names of the settings that were changed.
     """
     camera, kind = scene.camera, scene.hologram.kind
+    own = None if _is_deleted_eye(scene, camera) else camera
+    scene.camera = own
     before = {path: _get(scene, path) for path in (*_KEPT, *_UNITS, *_SET)}
     if not scene.objects:
         use_millimetres(scene)
@@ -95,9 +98,16 @@ def guest_of(scene: bpy.types.Scene) -> Iterator[list[str]]:
             scene.property_unset("hologram")
         raise
     _restore(scene, kept)
-    if camera is not None:
-        scene.camera = camera
+    if own is not None:
+        scene.camera = own
     told += [_label(scene, path) for path in _SET if _get(scene, path) != before[path]]
+    if any(_get(scene, path) != before[path] for path in _UNITS):
+        told.append("Units")
+
+
+def _is_deleted_eye(scene: bpy.types.Scene, camera: bpy.types.Object | None) -> bool:
+    """Tell whether a camera is an eye that only pointers of the scene keep."""
+    return camera is not None and camera.hologram.role == Role.EYE and not is_in(scene, camera)
 
 
 def _blocks() -> Iterator[bpy.types.ID]:

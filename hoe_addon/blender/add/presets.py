@@ -15,10 +15,12 @@ from ...model.device import DeviceSpec
 from ...model.device_parts import RoomSpec
 from ...model.document import find_device, load_device
 from ..build.device import DeviceScene, build_device
-from ..document.held import has_device, whole
+from ..document.gone import clear_gone, is_gone
+from ..document.held import whole
 from ..document.holding import hold
 from ..document.live import remember
 from ..document.size import set_size
+from ..ids import DeviceKind
 from .leaving import all_or_nothing, guest_of
 
 _UPRIGHT_AT_ORIGIN = (0.0, 0.0, 0.0)
@@ -86,18 +88,19 @@ def add_device(
         HoeError: The scene holds a device already.
         MissingOslError: This Blender, or its render device, cannot run OSL.
     """
-    if has_device(scene):
+    if scene.hologram.kind != DeviceKind.NONE and not is_gone(scene):
         raise HoeError(
-            f"scene {scene.name}: holds a device already; add this one as a scene of its own"
+            f"scene {scene.name}: holds a device already; delete all of it, or add this one as a "
+            "scene of its own"
         )
     spec, folder = _found(preset, folder)
-    camera = scene.camera
     nowhere = RoomSpec(kind="none", luminance_cd_m2=spec.room.luminance_cd_m2)
     with guest_of(scene) as settings:
         device = _built(scene, replace(spec, room=nowhere), folder)
         device.root.location = location
     set_size(scene)
-    return AddedDevice(device.root, device.eye, camera, tuple(settings))
+    kept = scene.camera if scene.camera != device.eye else None
+    return AddedDevice(device.root, device.eye, kept, tuple(settings))
 
 
 def _found(preset: DeviceSpec | str | Path, folder: Path | None) -> tuple[DeviceSpec, Path]:
@@ -109,6 +112,7 @@ def _found(preset: DeviceSpec | str | Path, folder: Path | None) -> tuple[Device
 def _built(scene: bpy.types.Scene, spec: DeviceSpec, folder: Path) -> DeviceScene:
     """Build a document with all its effects, and let the scene hold it."""
     device = with_fields(build_device(scene, whole(spec), folder), spec=spec)
+    clear_gone(scene)
     hold(device)
     remember(scene)
     return device

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ...core.errors import RenderError
 from ..pictures.render import render_layers
+from ..pictures.render_settings import picture_size
 from ..pictures.view import DISPLAY_LAYER
 from .device import DeviceScene
 
@@ -62,8 +63,7 @@ def pixel_direction(device: DeviceScene, column: float, row: float) -> NDArray[n
     Returns:
         Unit vector from the eye in the frame of the scene, shape ``(3,)``.
     """
-    render = device.scene.render
-    width, height = render.resolution_x, render.resolution_y
+    width, height = picture_size(device.scene)
     pixel = 2.0 * math.tan(math.radians(device.spec.eye.field_deg) / 2.0) / width
     local = np.array([(column - width / 2.0) * pixel, (height / 2.0 - row) * pixel, -1.0])
     direction = np.array(device.eye.rotation_euler.to_matrix(), dtype=np.float64) @ local

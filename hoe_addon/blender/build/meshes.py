@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ...core.shapes import MeshShape
+from ..marks import mark
 
 NORMAL_ATTRIBUTE = "hoe_normal"
 """Attribute of the exact normals at the corners, which the hologram's shader interpolates. Take it
@@ -47,7 +48,7 @@ def from_polygons(
     Returns:
         The mesh, validated.
     """
-    mesh = bpy.data.meshes.new(name)
+    mesh = mark(bpy.data.meshes.new(name))
     mesh.from_pydata([tuple(corner) for corner in corners], [], [tuple(p) for p in polygons])
     mesh.validate()
     return mesh
@@ -65,7 +66,7 @@ def smooth(name: str, shape: MeshShape, units: float) -> bpy.types.Mesh:
         The mesh: its normals are there twice, as Blender's own, and as the attribute
         `NORMAL_ATTRIBUTE`, since Cycles rounds Blender's to some 3e-5 rad.
     """
-    mesh = bpy.data.meshes.new(name)
+    mesh = mark(bpy.data.meshes.new(name))
     count = len(shape.faces)
     mesh.vertices.add(len(shape.vertices))
     mesh.vertices.foreach_set("co", (shape.vertices * units).astype(np.float32).ravel())

@@ -56,6 +56,7 @@ def device_root(collection: bpy.types.Collection, units_per_mm: float = 1.0) -> 
     """Add the object whose frame, with lengths in mm, is that of the document."""
     root = empty(collection, "Device", None)
     root.scale = (units_per_mm,) * 3
+    root.empty_display_type = "CUBE"  # around the eye, so that none of its lines is in the view
     root.rotation_euler = (math.radians(90.0), 0.0, 0.0)
     return root
 

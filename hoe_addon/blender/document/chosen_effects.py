@@ -3,8 +3,11 @@
 """What the user decides about effects, as it stands in ``Scene.hologram.render.effects``."""
 
 import bpy
+from msgspec.structs import replace
 
 from ...core.errors import SpecError
+from ...model.device import DeviceSpec
+from ...model.effects.holograms import holograms_of
 from ...model.effects.names import WHOLE_SCENE
 from ...model.effects.overrides import read_overrides
 from ..props import changes
@@ -69,6 +72,41 @@ def is_chosen(scene: bpy.types.Scene, effect: str, hologram: str) -> bool:
     )
 
 
+def forget(scene: bpy.types.Scene, hologram: str) -> None:
+    """Forget all that was decided for a hologram that is taken away.
+
+    Args:
+        scene: The scene.
+        hologram: Its name.
+    """
+    entries = scene.hologram.render.effects
+    for place in reversed(range(len(entries))):
+        if _hologram_of(entries[place].name) == hologram:
+            entries.remove(place)
+
+
+def of_present[S: DeviceSpec](spec: S) -> S:
+    """Leave out what was decided for holograms that have another name now, or are gone.
+
+    Args:
+        spec: The document of a scene.
+
+    Returns:
+        One whose ``render.effects`` name only holograms that it has.
+    """
+    effects = spec.render.effects
+    if not any(map(_hologram_of, effects)):
+        return spec
+    names = ("", *holograms_of(spec))
+    present = tuple(text for text in effects if _hologram_of(text) in names)
+    return replace(spec, render=replace(spec.render, effects=present))
+
+
+def _hologram_of(text: str) -> str:
+    """Name of the hologram that a change of the plan is about; empty for the whole scene."""
+    return text.rpartition(":")[0]
+
+
 def _remove(scene: bpy.types.Scene, effect: str, holograms: tuple[str, ...]) -> None:
     entries = scene.hologram.render.effects
     for place in reversed(range(len(entries))):
@@ -77,7 +115,7 @@ def _remove(scene: bpy.types.Scene, effect: str, holograms: tuple[str, ...]) -> 
 
 
 def _is_about(text: str, effect: str, holograms: tuple[str, ...]) -> bool:
-    name = text.rpartition(":")[0]
+    name = _hologram_of(text)
     try:
         chosen = read_overrides((text,), (name,)).chosen
     except SpecError:

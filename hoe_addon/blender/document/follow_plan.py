@@ -23,11 +23,11 @@ from ..pictures.diffracted import FLOOR, count_after_diffraction, is_worth_it
 from ..props.sync import read_followed, read_frame, refresh, write_spec
 from ..props.values import number
 from . import remake, resample
-from .held import face_of, hologram_slot
+from .elements import face_of, hologram_slot
 
 
 def follow_plan(device: DeviceScene, plan: EffectPlan) -> DeviceScene:
-    """Leave out of a scene what a plan leaves out of its document.
+    """Leave out of a scene what a plan leaves out of its document, and look through its eye.
 
     Args:
         device: A scene that holds its document, with all effects on.
@@ -45,6 +45,7 @@ def follow_plan(device: DeviceScene, plan: EffectPlan) -> DeviceScene:
         floor = min(made.render.spectrum_floor, FLOOR)
         made = replace(made, render=replace(made.render, spectrum_floor=floor))
     scene = device.scene
+    scene.camera = device.eye  # the user's may be another one
     _simplify_holograms(device, made)
     remake.settings(scene, made)
     if isinstance(made, LightGuideSpec):

@@ -8,7 +8,7 @@ mirrors, so where there are any, nothing may be left out.
 
 import bpy
 
-from ..ids import Role, RoomKind
+from ..ids import Role
 
 _SEEN = frozenset(
     ("MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES", "POINTCLOUD", "VOLUME", "LIGHT")
@@ -28,20 +28,41 @@ def things(scene: bpy.types.Scene) -> tuple[str, ...]:
     Returns:
         Names of objects, in order; last the world, where it gives light.
     """
-    room = scene.hologram.room.collection
-    known = set(room.all_objects) if room is not None else set()
-    found = [
+    room = scene.hologram.room
+    in_room = set(room.collection.all_objects) if room.collection is not None else set()
+    found = sorted(
         item.name
         for item in scene.objects
-        if item.type in _SEEN
-        and item.hologram.role in _UNKNOWN
-        and not item.hide_render
-        and item not in known
-    ]
-    found.sort()
-    if scene.hologram.room.kind == RoomKind.NONE and _shines(scene.world):
+        if (item.hologram.role != Role.ROOM if item in in_room else _is_unknown(scene, item))
+        and _shows(item)
+    )
+    if scene.world != room.world and _shines(scene.world):
         found.append(scene.world.name)
     return tuple(found)
+
+
+def _is_unknown(scene: bpy.types.Scene, item: bpy.types.Object) -> bool:
+    """Tell whether an object outside the room is none that the document was made into."""
+    role = item.hologram.role
+    # What is linked is part of a device in its own file.
+    return role in _UNKNOWN or role == Role.ROOM or item.library != scene.library
+
+
+def _shows(item: bpy.types.Object, above: tuple[bpy.types.Collection, ...] = ()) -> bool:
+    """Tell whether a render shows an object, or what a collection has that it is an instance of.
+
+    Args:
+        item: The object.
+        above: Collections that it is an instance in; one may come back in itself.
+    """
+    if item.hide_render:
+        return False
+    if item.type in _SEEN:
+        return True
+    inside = item.instance_collection if item.instance_type == "COLLECTION" else None
+    if inside is None or inside in above:
+        return False
+    return any(_shows(each, (*above, inside)) for each in inside.all_objects)
 
 
 def _shines(world: bpy.types.World | None) -> bool:

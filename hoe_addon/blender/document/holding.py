@@ -32,6 +32,7 @@ def hold(device: DeviceScene) -> None:
         held.eye.camera = device.eye
         held.room.from_document(document["room"], "room")
         held.room.collection = device.room
+        hold_room(device.room)
         if held.room.kind != RoomKind.NONE:
             held.room.world = device.scene.world
         held.render.from_document(document["render"], "render")
@@ -44,21 +45,33 @@ def hold(device: DeviceScene) -> None:
         else:
             for place, element in enumerate(document["elements"]):
                 item = device.elements[element["name"]]
-                hold_element(item, element, f"elements[{place}]")
+                hold_element(item, element, f"elements[{place}]", place)
 
 
-def hold_element(item: bpy.types.Object, document: dict[str, Any], path: str) -> None:
+def hold_room(made: bpy.types.Collection) -> None:
+    """Let what was made as a room say so: whatever else comes into its collection is the user's.
+
+    Args:
+        made: The new room.
+    """
+    for item in made.all_objects:
+        item.hologram.role = Role.ROOM
+
+
+def hold_element(item: bpy.types.Object, document: dict[str, Any], path: str, rank: int) -> None:
     """Write an element of a scene into its object; what hangs on it becomes part of it.
 
     Args:
         item: The object.
         document: The element.
         path: Its path, for messages.
+        rank: Where it stands among the elements.
     """
     with changes.unmarked():
         item.hologram.from_document(document, path, _shown_image(item))
+        item.hologram.rank = rank
         for child in item.children_recursive:
-            child.hologram.role = Role.PART
+            _fix(child, Role.PART)
 
 
 def _hold_guide(device: DeviceScene, document: dict[str, Any]) -> None:
@@ -74,9 +87,16 @@ def _hold_guide(device: DeviceScene, document: dict[str, Any]) -> None:
     held.engine.from_documents(document, _shown_image(device.panel))
     held.engine.mount, held.engine.panel = mount, device.panel
     held.eyebox.from_document(document["eyebox"], "eyebox")
-    plate.hologram.role, mount.hologram.role = Role.GUIDE, Role.ENGINE
+    _fix(plate, Role.GUIDE)
+    _fix(mount, Role.ENGINE)
     for child in mount.children_recursive:
-        child.hologram.role = Role.PART
+        _fix(child, Role.PART)
+
+
+def _fix(item: bpy.types.Object, role: Role) -> None:
+    """Say what an object is whose place follows from numbers: nobody moves it by mistake."""
+    item.hologram.role = role
+    item.lock_location = item.lock_rotation = item.lock_scale = (True,) * 3
 
 
 def _shown_image(item: bpy.types.Object) -> bpy.types.Image | None:

@@ -7,10 +7,8 @@ object stays the same datablock with its own place, parents and animation.
 """
 
 import contextlib
-import hashlib
-import json
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -21,31 +19,21 @@ from ...model.document import to_document
 from .. import whole_undo
 from ..props import changes
 from ..units import scale_of
-from . import remake
+from . import notes, remake
+from .elements import elements_by_name
 from .held import document_of, has_device
+from .notes import Part
+from .places import check_fixed, is_stretched
 
 _OWN = ("name", "position_mm", "rotation_deg", "hologram")
 """Fields of an element that its shape does not depend on."""
 
 _LIGHT = "luminance_cd_m2"
-_SIZE = "size of the eye"
 
+_PUPIL = "pupil"
 
-@dataclass(frozen=True)
-class _Part:
-    """One part of a scene.
-
-    Attributes:
-        name: Its name among those of its owner.
-        owner: Property group that keeps its digest in ``made_of``.
-        what: All that it is made of, as plain data.
-        make: Makes it anew.
-    """
-
-    name: str
-    owner: bpy.types.PropertyGroup
-    what: Any
-    make: Callable[[], None]
+_invalid: set[int] = set()
+"""Session ids of scenes whose document was not valid when they were last settled."""
 
 
 def settle(scene: bpy.types.Scene) -> tuple[str, ...]:
@@ -71,14 +59,24 @@ def _settle(scene: bpy.types.Scene, made: list[str]) -> None:
     held = scene.hologram
     try:
         with changes.unmarked():
-            for part in _parts(scene, document_of(scene)):
-                if _made_of(part).get(part.name) != _digest(part.what):
+            spec = document_of(scene)
+            for part in _parts(scene, spec):
+                if not notes.is_made(part):
                     made.append(part.name)
+                    # Half made it is like nothing: it is made anew whatever it is then to be.
+                    notes.forget(part)
                     part.make()
-                    _note(part)
+                    notes.note(part)
+            if isinstance(spec, LightGuideSpec):
+                for layer in scene.view_layers if made else ():
+                    layer.update()  # parts that were made anew may stand elsewhere
+                check_fixed(scene, spec)
+            notes.note(_fixed(scene))
     except HoeError as error:
+        _invalid.add(scene.session_uid)
         _tell(held, str(error))
         raise
+    _invalid.discard(scene.session_uid)
     _tell(held, "")
 
 
@@ -89,7 +87,8 @@ def remember(scene: bpy.types.Scene) -> None:
         scene: A scene that holds a document.
     """
     for part in _parts(scene, document_of(scene)):
-        _note(part)
+        notes.note(part)
+    notes.note(_fixed(scene))
 
 
 def settle_changed(changed: frozenset[int]) -> None:
@@ -112,17 +111,24 @@ def settle_changed(changed: frozenset[int]) -> None:
             changes.forget(block)
 
 
-def note_size(scene: bpy.types.Scene) -> None:
-    """Note a change where the eye was scaled, alone or with its device: its pupil follows.
+def note_moves(scene: bpy.types.Scene) -> None:
+    """Note a change where a move asks for one.
+
+    It does where the eye was scaled, alone or with its device, for its pupil follows; where a part
+    was moved whose place follows from numbers; and anywhere in a scene whose document was not
+    valid, for the move may have mended it.
 
     Args:
         scene: The scene; handlers call this whenever one of its objects has moved.
     """
-    held = scene.hologram
-    if scene.library is not None or not has_device(scene) or held.eye.camera is None:
+    if scene.library is not None or not has_device(scene):
         return
-    size = _Part(_SIZE, held, scale_of(held.eye.camera), lambda: None)
-    if _made_of(size).get(_SIZE) != _digest(size.what):
+    eye = scene.hologram.eye.camera
+    if (
+        scene.session_uid in _invalid
+        or (eye is not None and (is_stretched(eye) or not notes.is_made(_pupil(scene))))
+        or not notes.is_made(_fixed(scene))
+    ):
         changes.mark_block(scene)
 
 
@@ -134,6 +140,7 @@ def register() -> None:
 def unregister() -> None:
     """Let them follow no more."""
     changes.stop(settle_changed)
+    _invalid.clear()
 
 
 def _concerns(scene: bpy.types.Scene, changed: frozenset[int]) -> bool:
@@ -148,28 +155,29 @@ def _concerns(scene: bpy.types.Scene, changed: frozenset[int]) -> bool:
     return False
 
 
-def _parts(scene: bpy.types.Scene, spec: DeviceSpec) -> Iterator[_Part]:
+def _parts(scene: bpy.types.Scene, spec: DeviceSpec) -> Iterator[Part]:
     """All parts of a document, each after those that it depends on."""
     held, document = scene.hologram, to_document(spec)
     render = document["render"]
     unit = render["luminance_per_unit_cd_m2"]
 
-    def part(name: str, what: Any, make: Callable[[bpy.types.Scene, Any], None]) -> _Part:
-        return _Part(name, held, what, lambda: make(scene, spec))
+    def part(name: str, what: Any, make: Callable[[bpy.types.Scene, Any], None]) -> Part:
+        return Part(name, held, what, lambda: make(scene, spec))
 
+    yield _pupil(scene, lambda: remake.pupil(scene, spec))
     yield part("settings", [render["mode"], render["max_bounces"]], remake.settings)
     if isinstance(spec, LightGuideSpec):
         yield part("guide", _guide_of(document), remake.guide)
         yield part("engine", _engine_of(document), remake.engine)
     else:
+        items = elements_by_name(scene)
         for element in document["elements"]:
-            yield _shape_part(scene, spec, element)
+            yield _shape_part(scene, spec, element, items[element["name"]])
     yield part("spectrum", _spectrum_of(document), remake.spectrum)
     yield part("preview", render["preview_wavelength_nm"], remake.preview)
     yield part("eye", [render["mode"], document["eye"]], remake.eye)
-    yield part(_SIZE, scale_of(held.eye.camera), remake.pupil)
-    size = scale_of(held.root)
-    yield part("room", [document["room"], unit, *([size] if size != 1.0 else [])], remake.room)
+    room = part("room", [document["room"], unit], remake.room)
+    yield replace(room, size=scale_of(held.root))
     if isinstance(spec, LightGuideSpec):
         light = spec.display.luminance_cd_m2 / unit
         yield _light_part(held, held.engine.panel, light)
@@ -177,27 +185,42 @@ def _parts(scene: bpy.types.Scene, spec: DeviceSpec) -> Iterator[_Part]:
         for element in document["elements"]:
             light = element.get("display", element).get(_LIGHT)
             if light is not None:
-                item = scene.objects[element["name"]]
+                item = items[element["name"]]
                 yield _light_part(item.hologram, item, light / unit)
 
 
-def _shape_part(scene: bpy.types.Scene, spec: DeviceSpec, element: dict[str, Any]) -> _Part:
+def _pupil(scene: bpy.types.Scene, make: Callable[[], None] = lambda: None) -> Part:
+    """The pupil of the eye at its size in the scene; it depends on no other part."""
+    held = scene.hologram
+    return Part(_PUPIL, held, None, make, scale_of(held.eye.camera))
+
+
+def _fixed(scene: bpy.types.Scene) -> Part:
+    """Places of parts that nobody moves on their own; they are checked, and never made."""
+    held = scene.hologram
+    items = (held.guide.plate, held.engine.mount, held.engine.panel)
+    what = [[list(row) for row in item.matrix_basis] for item in items if item is not None]
+    return Part("places", held, what, lambda: None)
+
+
+def _shape_part(
+    scene: bpy.types.Scene, spec: DeviceSpec, element: dict[str, Any], item: bpy.types.Object
+) -> Part:
     """The shape of an element; its light, its place and its recording stand apart."""
-    item = scene.objects[element["name"]]
     if element["kind"] == "hologram":
         surface = element["hologram"]["surface"]
-        return _Part(
+        return Part(
             "shape", item.hologram, surface, lambda: remake.hologram_mesh(scene, spec, item)
         )
     what = {name: value for name, value in element.items() if name not in (*_OWN, _LIGHT)}
     if "display" in what:
         what["display"] = {n: value for n, value in what["display"].items() if n != _LIGHT}
-    return _Part("shape", item.hologram, what, lambda: remake.element(scene, spec, item))
+    return Part("shape", item.hologram, what, lambda: remake.element(scene, spec, item))
 
 
-def _light_part(owner: bpy.types.PropertyGroup, item: bpy.types.Object, luminance: float) -> _Part:
+def _light_part(owner: bpy.types.PropertyGroup, item: bpy.types.Object, luminance: float) -> Part:
     """How bright a display or a lamp is, in scene units: one number of its shader."""
-    return _Part("light", owner, luminance, lambda: remake.luminance(item, luminance))
+    return Part("light", owner, luminance, lambda: remake.luminance(item, luminance))
 
 
 def _spectrum_of(document: dict[str, Any]) -> Any:
@@ -226,24 +249,6 @@ def _engine_of(document: dict[str, Any]) -> Any:
     ]
 
 
-def _made_of(part: _Part) -> dict[str, str]:
-    try:
-        found = json.loads(part.owner.made_of or "{}")
-    except (ValueError, RecursionError):
-        # A file of a stranger may hold any text; all is made anew then.
-        return {}
-    return found if isinstance(found, dict) else {}
-
-
-def _note(part: _Part) -> None:
-    part.owner.made_of = json.dumps(_made_of(part) | {part.name: _digest(part.what)})
-
-
 def _tell(held: bpy.types.PropertyGroup, problem: str) -> None:
     if held.problem != problem:
         held.problem = problem
-
-
-def _digest(what: Any) -> str:
-    text = json.dumps(what, sort_keys=True)
-    return hashlib.blake2b(text.encode(), digest_size=8).hexdigest()

@@ -13,8 +13,9 @@ from ..build.guide import patch_frame
 from ..ids import Choice
 from ..props import changes
 from ..shaders.materials import hologram_material
+from . import chosen_effects
 from .held import document_of, spectrum_of
-from .live import settle
+from .refusing import settle_or_restore
 
 
 class Purpose(Choice):
@@ -36,7 +37,7 @@ def add_patch(scene: bpy.types.Scene, purpose: str = Purpose.OUT) -> bpy.types.P
 
     Raises:
         SpecError: The scene's document is not valid, or there is no free place.
-        HoeError: Its shader cannot be made; the scene stays as it was.
+        HoeError: Its shader cannot be made. The scene stays as it was in all cases.
     """
     spec, held = _light_guide(scene), scene.hologram
     patch = default_patch(spec, Purpose(purpose).value)
@@ -49,7 +50,12 @@ def add_patch(scene: bpy.types.Scene, purpose: str = Purpose.OUT) -> bpy.types.P
         entry = held.patches.add()
         entry.from_document(to_document(patch), f"holograms[{len(spec.holograms)}]")
         entry.material = material
-    settle(scene)
+
+    def restore() -> None:
+        held.patches.remove(len(held.patches) - 1)
+        bpy.data.materials.remove(material)
+
+    settle_or_restore(scene, restore)
     held.active_patch = len(held.patches) - 1
     return held.patches[held.active_patch]
 
@@ -65,7 +71,7 @@ def remove_patch(scene: bpy.types.Scene, place: int) -> str:
         Its name.
 
     Raises:
-        SpecError: It has to stay, or the scene's document is not valid without it.
+        SpecError: It has to stay, or the scene's document is not valid without it; it stays then.
     """
     held = scene.hologram
     if not 0 <= place < len(held.patches):
@@ -73,9 +79,19 @@ def remove_patch(scene: bpy.types.Scene, place: int) -> str:
     name = held.patches[place].name
     if name == held.engine.patch:
         raise SpecError(f"{name}: display and lens stand over it; choose another In-Coupler first")
+    removed = held.patches[place]
+    document, material = removed.to_document(), removed.material
     with changes.unmarked():
         held.patches.remove(place)
-    settle(scene)
+
+    def restore() -> None:
+        entry = held.patches.add()
+        entry.from_document(document, f"holograms[{place}]")
+        entry.material = material
+        held.patches.move(len(held.patches) - 1, place)
+
+    settle_or_restore(scene, restore)
+    chosen_effects.forget(scene, name)
     held.active_patch = min(held.active_patch, len(held.patches) - 1)
     return name
 

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts of a device made anew, in place of those that are there."""
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import bpy
@@ -16,15 +15,18 @@ from ..build.element import element_datablock
 from ..build.eye import add_filter, filter_mesh, set_pupil
 from ..build.guide import FIRST_PATCH, guide_mesh, patch_frame
 from ..build.scene import add_element, element_spectra
-from ..build.stage import add_room
+from ..build.stage import add_room, new_collection
 from ..ids import Role, Shape
+from ..marks import is_made
 from ..pictures.render_settings import set_path_lengths
 from ..props.sync import refresh
 from ..props.values import store
 from ..shaders import nodes
 from ..units import scale_of
-from . import resample
-from .held import hologram_slot, spectrum_of
+from . import exchange, resample
+from .elements import face_of, hologram_slot
+from .held import spectrum_of
+from .holding import hold_room
 
 
 def settings(scene: bpy.types.Scene, spec: DeviceSpec) -> None:
@@ -52,14 +54,14 @@ def eye(scene: bpy.types.Scene, spec: DeviceSpec) -> None:
     screens = [child for child in camera.children if child.hologram.role == Role.FILTER]
     if spec.render.mode != "spectral":
         for screen in screens:
-            _remove(screen)
+            exchange.remove(screen)
         return
     if not screens:
         spectral = spectrum_of(spec, scene.hologram.wavelength)
         screen = add_filter(_collection_of(scene, camera), camera, spec.eye, spectral)
         screen.hologram.role = Role.FILTER
     for screen in screens:
-        _swap_mesh(screen, filter_mesh(spec.eye))
+        exchange.exchange_mesh(screen, filter_mesh(spec.eye))
 
 
 def pupil(scene: bpy.types.Scene, spec: DeviceSpec) -> None:
@@ -77,13 +79,13 @@ def guide(scene: bpy.types.Scene, spec: DeviceSpec) -> None:
     bare = plate.material_slots[0].material
     values = medium_sockets("inside", spec.guide.medium)
     values |= medium_sockets("outside", spec.guide.outside)
-    nodes.set_values(nodes.script_node(bare), values)
+    if is_made(bare):
+        nodes.set_values(nodes.script_node(bare), values)
     rim = plate.material_slots[FIRST_PATCH - 1].material
-    _swap_mesh(
-        plate,
-        guide_mesh(spec.guide, spec.holograms),
-        (bare, rim, *(patch.material for patch in held.patches)),
-    )
+    mesh = guide_mesh(spec.guide, spec.holograms)
+    for material in (bare, rim, *(patch.material for patch in held.patches)):
+        mesh.materials.append(material)
+    exchange.put_mesh(plate, mesh)
     for entry, patch in zip(held.patches, spec.holograms, strict=True):
         _place_patch(entry.material, spec, patch.name)
 
@@ -103,31 +105,69 @@ def engine(scene: bpy.types.Scene, spec: DeviceSpec) -> None:
     assert isinstance(spec, LightGuideSpec)
     held = scene.hologram.engine
     mount = held.mount
-    for child in [each for each in mount.children if each.hologram.role == Role.PART]:
-        _remove(child)
     mount.location = engine_place(spec)
     spectral = spectrum_of(spec, scene.hologram.wavelength)
-    kept = set(mount.children)
-    held.panel = add_engine(_collection_of(scene, mount), spec, Path(), spectral, mount)
-    for child in set(mount.children) - kept:
-        child.hologram.role = Role.PART
+    there = set(mount.children)
+    panel = add_engine(_collection_of(scene, mount), spec, Path(), spectral, mount)
+    panels = (held.panel, panel)
+
+    def kind_of(part: bpy.types.Object) -> str:
+        return "panel" if part in panels else part.data.name.partition(".")[0]
+
+    if held.panel not in there:
+        held.panel = panel
+    exchange.join_parts(mount, set(mount.children) - there, kind_of)
 
 
 def room(scene: bpy.types.Scene, spec: DeviceSpec) -> None:
-    """Make the room anew."""
+    """Make the room anew; what the user put into its collection stays in it."""
     held = scene.hologram.room
-    old = held.collection
-    if old is not None:
-        for item in list(old.all_objects):
-            _remove(item)
-        for part in [*old.children_recursive, old]:
-            bpy.data.collections.remove(part)
-    if held.world is not None and scene.world == held.world:
+    held.collection = _room_without_its_parts(scene, held.collection)
+    sky = held.world
+    if sky is not None and scene.world == sky:
         scene.world = None
     before = scene.world
     unit, size = spec.render.luminance_per_unit_cd_m2, scale_of(scene.hologram.root)
-    held.collection = add_room(scene, spec.room, unit, size)
+    made = add_room(scene, spec.room, unit, size)
+    hold_room(made)
+    for item in made.objects:
+        held.collection.objects.link(item)
+    bpy.data.collections.remove(made)
     held.world = scene.world if scene.world != before else None
+    if sky is not None and before is not None:
+        scene.world = before  # the user has put it in place of the sky
+
+
+def _room_without_its_parts(
+    scene: bpy.types.Scene, old: bpy.types.Collection | None
+) -> bpy.types.Collection:
+    """The collection for the room of a scene, with nothing in it but what is the user's."""
+    inside = scene.collection.children_recursive
+    if old is None or old not in inside:
+        return new_collection(scene, "Room")
+    if not _is_elsewhere(scene, old):
+        for item in list(old.all_objects):
+            if item.hologram.role == Role.ROOM:
+                exchange.take_out(item, {old, *old.children_recursive})
+        return old
+    own = new_collection(scene, "Room")
+    for item in old.all_objects:
+        if item.hologram.role != Role.ROOM:
+            own.objects.link(item)
+    for parent in (scene.collection, *inside):
+        if old in parent.children.values() and not _is_elsewhere(scene, parent):
+            parent.children.unlink(old)
+    return own
+
+
+def _is_elsewhere(scene: bpy.types.Scene, collection: bpy.types.Collection) -> bool:
+    """Tell whether another scene or file has a collection, so that it cannot be changed here."""
+    others = [other for other in bpy.data.scenes if other != scene]
+    return collection.library is not None or any(
+        collection == other.hologram.room.collection
+        or collection in other.collection.children_recursive
+        for other in others
+    )
 
 
 def hologram_mesh(scene: bpy.types.Scene, spec: DeviceSpec, item: bpy.types.Object) -> None:
@@ -137,7 +177,7 @@ def hologram_mesh(scene: bpy.types.Scene, spec: DeviceSpec, item: bpy.types.Obje
     if material is None or material.hologram.surface.shape == Shape.MESH:
         return
     made, _ = element_datablock(spec.hologram(item.name).hologram)
-    _swap_mesh(item, made, tuple(slot.material for slot in item.material_slots))
+    exchange.exchange_mesh(item, made)
 
 
 def element(scene: bpy.types.Scene, spec: DeviceSpec, item: bpy.types.Object) -> None:
@@ -152,62 +192,18 @@ def element(scene: bpy.types.Scene, spec: DeviceSpec, item: bpy.types.Object) ->
         Path(),
         spec.render.luminance_per_unit_cd_m2,
     )
-    for child in [each for each in item.children if each.hologram.role == Role.PART]:
-        _remove(child)
-    for child in made.children:
-        child.parent = item
-        child.hologram.role = Role.PART
-    old, item.data = item.data, made.data
+    exchange.join_parts(item, made.children, face_of)
+    exchange.exchange_mesh(item, made.data)
     bpy.data.objects.remove(made)
-    _drop_mesh(old)
 
 
 def luminance(item: bpy.types.Object, white: float) -> None:
     """Set how bright a display or a lamp is, in scene units."""
     material = resample.own_material(item)
+    if material is None:
+        return
     socket = nodes.input_socket(nodes.script_node(material), "white_luminance")
     socket.default_value = white
-
-
-def _swap_mesh(
-    item: bpy.types.Object,
-    mesh: bpy.types.Mesh,
-    materials: Sequence[bpy.types.Material | None] | None = None,
-) -> None:
-    """Give an object another mesh, with its materials or those given, and drop the old one."""
-    old = item.data
-    if materials is None:
-        materials = tuple(slot.material for slot in item.material_slots)
-    # Clearing the list would send all faces to the first slot.
-    for place, material in enumerate(materials):
-        if place < len(mesh.materials):
-            mesh.materials[place] = material
-        else:
-            mesh.materials.append(material)
-    name, item.data = old.name, mesh
-    _drop_mesh(old)
-    mesh.name = name
-
-
-def _drop_mesh(mesh: bpy.types.Mesh) -> None:
-    """Remove a mesh that nothing uses any more, with materials that only it had."""
-    if mesh.users > int(mesh.use_fake_user):
-        return
-    materials = [material for material in mesh.materials if material is not None]
-    bpy.data.meshes.remove(mesh)
-    for material in materials:
-        if material.users == int(material.use_fake_user):
-            bpy.data.materials.remove(material)
-
-
-def _remove(item: bpy.types.Object) -> None:
-    """Remove an object with its parts, and what only it had."""
-    for child in item.children_recursive:
-        bpy.data.objects.remove(child)
-    mesh = item.data if isinstance(item.data, bpy.types.Mesh) else None
-    bpy.data.objects.remove(item)
-    if mesh is not None:
-        _drop_mesh(mesh)
 
 
 def _collection_of(scene: bpy.types.Scene, item: bpy.types.Object) -> bpy.types.Collection:

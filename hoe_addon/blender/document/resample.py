@@ -15,9 +15,11 @@ from ...model.scene_parts import DisplayElement, LampElement
 from ..build.lights import lamp_material
 from ..build.scene import element_spectra
 from ..ids import Role
+from ..marks import is_made
 from ..shaders import nodes
 from ..shaders.materials import display_material, filter_material
 from ..shaders.spectral import SpectralScene
+from .elements import elements_by_name
 
 
 def resample(scene: bpy.types.Scene, spec: DeviceSpec, spectral: SpectralScene) -> None:
@@ -41,15 +43,13 @@ def resample(scene: bpy.types.Scene, spec: DeviceSpec, spectral: SpectralScene) 
         _exchange_display(held.engine.panel, spec.display, spectral, unit)
         return
     assert isinstance(spec, SceneSpec)
-    parts = element_spectra(spec, spectral)
+    parts, items = element_spectra(spec, spectral), elements_by_name(scene)
     for element in spec.elements:
-        item, part = scene.objects[element.name], parts[element.name]
+        item, part = items[element.name], parts[element.name]
         if isinstance(element, DisplayElement):
             _exchange_display(item, element.display, part, unit)
         elif isinstance(element, LampElement):
-            new = lamp_material(element, part)
-            _set_luminance(new, element.luminance_cd_m2 / unit)
-            _exchange(own_material(item), new, bpy.data.materials)
+            _exchange_lamp(item, element, part, unit)
 
 
 def set_preview(group: bpy.types.NodeTree, wavelength_nm: float) -> None:
@@ -68,16 +68,21 @@ def set_preview(group: bpy.types.NodeTree, wavelength_nm: float) -> None:
             node.outputs[0].default_value = wavelength_nm
 
 
-def own_material(item: bpy.types.Object) -> bpy.types.Material:
+def own_material(item: bpy.types.Object) -> bpy.types.Material | None:
     """The material of a display or a lamp, which a duplicate shares no longer after this.
 
     Args:
         item: The object.
 
     Returns:
-        The material, a copy where another object had it too.
+        The material, a copy where another object had it too; None where the user has put another
+        one in its place.
     """
+    if not item.material_slots:
+        return None
     slot = item.material_slots[0]
+    if slot.material is not None and not is_made(slot.material):
+        return None
     if item.data.users > 1:
         slot.link = "OBJECT"  # one mesh, but brightness of its own
     if slot.material is None:
@@ -92,9 +97,22 @@ def _exchange_display(
     item: bpy.types.Object, display: DisplaySpec, spectral: SpectralScene, unit: float
 ) -> None:
     old = own_material(item)
+    if old is None:
+        return
     texture = next(node for node in nodes.tree_of(old).nodes if node.type == "TEX_IMAGE")
     light = display.luminance_cd_m2 / unit
     new = display_material(texture.image, display.spectra(), display.white, light, spectral)
+    _exchange(old, new, bpy.data.materials)
+
+
+def _exchange_lamp(
+    item: bpy.types.Object, lamp: LampElement, spectral: SpectralScene, unit: float
+) -> None:
+    old = own_material(item)
+    if old is None:
+        return
+    new = lamp_material(lamp, spectral)
+    _set_luminance(new, lamp.luminance_cd_m2 / unit)
     _exchange(old, new, bpy.data.materials)
 
 

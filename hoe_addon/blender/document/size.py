@@ -8,7 +8,7 @@ import bpy
 
 from ...core.errors import HoeError
 from ..units import scale_of, units_per_mm
-from .live import settle
+from .refusing import settle_or_restore
 
 _NEAR = 1e-4
 
@@ -38,7 +38,7 @@ def set_size(scene: bpy.types.Scene, times: float = 1.0) -> None:
 
     Raises:
         HoeError: The size is none, or the device is gone or has no size to begin with.
-        SpecError: The document is not valid.
+        SpecError: The document is not valid; the size stays as it was.
     """
     root = scene.hologram.root
     if not 0.0 < times < math.inf:
@@ -49,5 +49,10 @@ def set_size(scene: bpy.types.Scene, times: float = 1.0) -> None:
         layer.update()
     if not scale_of(root) > 0.0:
         raise HoeError(f"object {root.name}: must not be scaled to nothing")
+    before = root.scale.copy()
     root.scale *= times * units_per_mm(scene) / scale_of(root)
-    settle(scene)
+
+    def restore() -> None:
+        root.scale = before
+
+    settle_or_restore(scene, restore)

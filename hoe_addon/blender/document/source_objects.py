@@ -7,7 +7,7 @@ from mathutils import Matrix, Vector
 
 from ...core.errors import HoeError
 from ..ids import WaveKind
-from ..props.followed import carrier_of, read_frame
+from ..props.followed import carrier_of, carries, read_frame
 from ..props.values import number, numbers
 from ..units import scale_of
 
@@ -33,7 +33,7 @@ def bind_source(material: bpy.types.Material, role: str, source: bpy.types.Objec
         raise HoeError(
             "a source behind optics cannot follow an object; choose another kind of wave first"
         )
-    if source == carrier_of(material):
+    if carries(source, material):
         raise HoeError(f"object {source.name}: carries the hologram; select another object")
     wave.target = source
     wave.follows = True

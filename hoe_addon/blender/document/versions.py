@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 import bpy
 
 from ..ids import Role
+from ..marks import mark
 from ..props import changes
 from ..props.device import VERSION
 from ..props.shader_node import hologram_node
@@ -160,6 +161,63 @@ def _runs(material: bpy.types.Material, shader: str) -> bool:
     )
 
 
+def _tell_made(scene: bpy.types.Scene) -> None:
+    """From 2 to 3: what the add-on made says so, and all else is the user's."""
+    room = scene.hologram.room.collection
+    for item in room.objects if room is not None else ():
+        if item.library is None and item.hologram.role == Role.NONE and _is_of_room(item):
+            item.hologram.role = Role.ROOM
+    for item in scene.objects:
+        if item.hologram.role in (Role.NONE, Role.ROOM):
+            continue
+        materials = {slot.material for slot in item.material_slots if slot.material is not None}
+        made = [material for material in materials if _is_made(material)]
+        if isinstance(item.data, bpy.types.Mesh) and item.hologram.role != Role.HOLOGRAM:
+            made.append(item.data)  # of a hologram it may be the user's
+        for block in made:
+            if block.library is None:
+                mark(block)
+
+
+def _is_of_room(item: bpy.types.Object) -> bool:
+    """Tell whether version 2 put an object into its room; what is in doubt is the user's."""
+    if item.type not in ("MESH", "LIGHT"):
+        return False
+    names = {each.name.partition(".")[0].rstrip(" 0123456789") for each in (item, item.data)}
+    # Blender too calls its suns Sun, but puts them into no light group.
+    return names <= _ROOMS and (item.type == "MESH" or item.lightgroup == _AMBIENT)
+
+
+def _is_made(material: bpy.types.Material) -> bool:
+    """Tell whether a material of an element is as version 2 made it."""
+    if any(_runs(material, shader) for shader in _LOOKS):
+        return True
+    tree = material.node_tree
+    kinds = {node.bl_idname for node in tree.nodes} if tree is not None else set()
+    return "ShaderNodeBsdfDiffuse" in kinds and kinds <= _MATTE
+
+
+_AMBIENT = "ambient"
+"""Light group of a room."""
+
+_MATTE = frozenset(
+    (
+        "ShaderNodeBsdfDiffuse",
+        "ShaderNodeOutputMaterial",
+        "ShaderNodeTexImage",
+        "ShaderNodeVectorMath",
+    )
+)
+"""Nodes of what version 2 made cards, blocks, holders and housings of."""
+
+_ROOMS = frozenset((
+    "Bonnet", "Bookcase", "Books", "Bowl", "Car", "Car Glass", "Cushion", "Desk", "Floor", "Ground",
+    "Hills", "Jar", "Lamp", "Lamp Stand", "Lampshade", "Lines", "Passe-partout", "Picture Frame",
+    "Plant", "Posts", "Pot", "Print", "Print Sun", "Road", "Room", "Rug", "Skirting", "Sofa",
+    "Stool", "Sun", "Tail Lights", "Tall Vase", "Target", "Trees", "Vase", "Wall", "Window",
+))  # fmt: skip
+"""Names of what version 2 put into its rooms, without the numbers behind them."""
+
 _LOOKS = {
     "hoe_hologram": Look.PLATE,
     "hoe_dielectric": Look.GLASS,
@@ -169,5 +227,5 @@ _LOOKS = {
 }
 """Plain look of a material by the shader in it."""
 
-_STEPS: Mapping[int, Step] = {1: _tell_parts}
+_STEPS: Mapping[int, Step] = {1: _tell_parts, 2: _tell_made}
 """For each older version, the step to the next one."""

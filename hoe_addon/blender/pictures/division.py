@@ -6,9 +6,8 @@ The same scene and seed give the same division: it looks at variances, never at 
 of a pixel is taken to cost the same in all passes, which measured right to a fifth.
 """
 
-import contextlib
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,8 +17,10 @@ from ...core.colour import LUMINANCE_WEIGHTS
 from ...model.device import LightGuideSpec
 from ...model.field import field_mask
 from ..build.device import DeviceScene
+from ..kept import changed
 from .passes import FirstOrders, Pass, is_divisible, whole
 from .render import COMBINED, Progress, Region
+from .render_settings import picture_size, size_settings
 
 _LEAST_PATHS = 1_500_000
 """A shorter render is done before a pilot has paid."""
@@ -116,15 +117,13 @@ def divided(device: DeviceScene, samples: int | None = None) -> Division:
         RenderError: Blender gave no usable picture.
     """
     one = Division((whole(device),), (1.0,), 1.0)
-    render = device.scene.render
-    short = samples is not None and (
-        render.resolution_x * render.resolution_y * samples < _LEAST_PATHS
-    )
+    width, height = picture_size(device.scene)
+    short = samples is not None and width * height * samples < _LEAST_PATHS
     if short or not is_divisible(device):
         return one
     straight = Pass(device, "straight", FirstOrders.STRAIGHT, 1, 1.0 - _DIFFRACTED_SHARE, stream=1)
     diffracted = Pass(device, "diffracted", FirstOrders.DIFFRACTED, 2, _DIFFRACTED_SHARE, stream=2)
-    with _small(device):
+    with changed((device.scene.render, size_settings(*_pilot_size((width, height))))):
         undivided, first, second = (
             _variance(each) for each in (whole(device), straight, diffracted)
         )
@@ -186,18 +185,11 @@ def _variance(this: Pass) -> NDArray[np.float64]:
     return (pictures[0] - pictures[1]) ** 2 / (1.0 / _FEW + 1.0 / _MANY)
 
 
-@contextlib.contextmanager
-def _small(device: DeviceScene) -> Iterator[None]:
-    render = device.scene.render
-    kept = render.resolution_x, render.resolution_y
-    scale = min(1.0, _PILOT_WIDTH / kept[0])
-    try:
-        render.resolution_x, render.resolution_y = (
-            max(_LEAST_SIDE, round(side * scale)) for side in kept
-        )
-        yield
-    finally:
-        render.resolution_x, render.resolution_y = kept
+def _pilot_size(size: tuple[int, int]) -> tuple[int, int]:
+    """Width and height of the pilot of a picture."""
+    scale = min(1.0, _PILOT_WIDTH / size[0])
+    width, height = (max(_LEAST_SIDE, round(side * scale)) for side in size)
+    return width, height
 
 
 def _counted(device: DeviceScene, shape: tuple[int, ...]) -> NDArray[np.bool_]:
@@ -223,13 +215,13 @@ def _region(device: DeviceScene, variance: NDArray[np.float64]) -> Region | None
     # One block more on each side: the pilot is coarse and noisy.
     top, left = np.maximum(bright.min(axis=0) - 1, 0) * _BLOCK
     bottom, right = np.minimum((bright.max(axis=0) + 2) * _BLOCK, (height, width))
-    render = device.scene.render
-    x, y = render.resolution_x / width, render.resolution_y / height
+    full_width, full_height = picture_size(device.scene)
+    x, y = full_width / width, full_height / height
     region = Region(
         math.floor(left * x),
         math.floor(top * y),
-        min(render.resolution_x, math.ceil(right * x)),
-        min(render.resolution_y, math.ceil(bottom * y)),
+        min(full_width, math.ceil(right * x)),
+        min(full_height, math.ceil(bottom * y)),
     )
-    small = region.pixels < _LARGEST_REGION * render.resolution_x * render.resolution_y
+    small = region.pixels < _LARGEST_REGION * full_width * full_height
     return region if small else None

@@ -16,14 +16,18 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.extremes import extremes, ratio
 from ...core.photometry import luminance, measure
+from ...core.picture_error import Estimate
 from ...model.eyebox import PupilPosition, pupil_positions
 from ...model.field import field_degrees, field_tangents
 from ...shading.pictures import built_in
 from ..build.device import DeviceScene
+from ..kept import changed, kept
 from ..shaders.materials import picture
 from .division import divided
 from .render import Progress, render_layers
+from .render_settings import size_settings
 from .view import DISPLAY_LAYER, View, render_view
 
 _CELL_DEG = 0.5
@@ -42,29 +46,32 @@ class FieldLuminance:
     Attributes:
         mean_cd_m2: Mean luminance over the field.
         standard_error_cd_m2: Of that mean.
-        min_cd_m2: Darkest cell.
-        max_cd_m2: Brightest cell.
+        least: Luminance of the darkest cell, in cd/m2.
+        greatest: Luminance of the brightest cell, in cd/m2.
         u_prime: CIE 1976 u' of the mean colour, NaN for black.
         v_prime: CIE 1976 v' of the mean colour, NaN for black.
     """
 
     mean_cd_m2: float
     standard_error_cd_m2: float
-    min_cd_m2: float
-    max_cd_m2: float
+    least: Estimate
+    greatest: Estimate
     u_prime: float
     v_prime: float
 
     def to_dict(self) -> dict[str, Any]:
         """The numbers for JSON, which knows no NaN: black has no colour."""
-        uniformity = self.min_cd_m2 / self.max_cd_m2 if self.max_cd_m2 > 0.0 else 0.0
+        uniformity = ratio(self.least, self.greatest)
         black = math.isnan(self.u_prime)
         return {
             "mean_cd_m2": self.mean_cd_m2,
             "standard_error_cd_m2": self.standard_error_cd_m2,
-            "min_cd_m2": self.min_cd_m2,
-            "max_cd_m2": self.max_cd_m2,
-            "uniformity": uniformity,
+            "min_cd_m2": self.least.value,
+            "min_standard_error_cd_m2": self.least.standard_error,
+            "max_cd_m2": self.greatest.value,
+            "max_standard_error_cd_m2": self.greatest.standard_error,
+            "uniformity": uniformity.value,
+            "uniformity_standard_error": uniformity.standard_error,
             "u_prime": None if black else self.u_prime,
             "v_prime": None if black else self.v_prime,
         }
@@ -104,7 +111,7 @@ def survey(
     """
     positions = list(pupil_positions(device.guide_spec))
     render = device.scene.render
-    kept = tuple(device.eye.location), render.use_persistent_data
+    before = tuple(device.eye.location), render.use_persistent_data
     try:
         # Only the camera moves between the views: the scene need not be prepared again.
         render.use_persistent_data = True
@@ -118,7 +125,7 @@ def survey(
             view = render_view(device, told, division)
             yield PupilResult(position, view, fields[number])
     finally:
-        device.eye.location, render.use_persistent_data = kept
+        device.eye.location, render.use_persistent_data = before
 
 
 @contextlib.contextmanager
@@ -144,8 +151,7 @@ def white_field(device: DeviceScene) -> Iterator[None]:
         (
             scene.render,
             {
-                "resolution_x": columns,
-                "resolution_y": rows,
+                **size_settings(columns, rows),
                 # Cells need not be square; Blender wants the smaller aspect to be 1.
                 "pixel_aspect_x": max(1.0, 1.0 / tallness),
                 "pixel_aspect_y": max(1.0, tallness),
@@ -153,15 +159,10 @@ def white_field(device: DeviceScene) -> Iterator[None]:
         ),
         (scene.cycles, {"pixel_filter_type": "BOX", "filter_width": 1.0}),
     )
-    kept = [(owner, name, getattr(owner, name)) for owner, new in groups for name in new]
     try:
-        for owner, new in groups:
-            for name, value in new.items():
-                setattr(owner, name, value)
-        yield
+        with changed(*groups):
+            yield
     finally:
-        for owner, name, value in kept:
-            setattr(owner, name, value)
         bpy.data.images.remove(white)
 
 
@@ -203,22 +204,21 @@ def measure_field(device: DeviceScene, samples: int) -> FieldLuminance:
         Luminance and colour.
     """
     cycles, unit = device.scene.cycles, device.guide_spec.render.luminance_per_unit_cd_m2
-    kept = cycles.samples, cycles.seed
     parts: list[NDArray[np.float32]] = []
-    try:
+    with kept((cycles, ("samples", "seed"))):
         cycles.samples = max(1, samples // _INDEPENDENT_PARTS)
-        for part in range(_INDEPENDENT_PARTS):
-            cycles.seed = kept[1] + 1 + part
+        for _ in range(_INDEPENDENT_PARTS):
+            cycles.seed += 1
             parts.append(render_layers(device.scene, (DISPLAY_LAYER,))[DISPLAY_LAYER])
-    finally:
-        cycles.samples, cycles.seed = kept
-    means = [float(luminance(part, unit).mean()) for part in parts]
+    cells = [luminance(part, unit) for part in parts]
+    means = [float(each.mean()) for each in cells]
+    least, greatest = extremes(cells)
     whole = measure(np.mean(parts, axis=0), unit)
     return FieldLuminance(
-        mean_cd_m2=whole.mean_cd_m2,
+        mean_cd_m2=float(np.mean(cells)),
         standard_error_cd_m2=float(np.std(means, ddof=1)) / math.sqrt(len(means)),
-        min_cd_m2=whole.min_cd_m2,
-        max_cd_m2=whole.peak_cd_m2,
+        least=least,
+        greatest=greatest,
         u_prime=whole.u_prime,
         v_prime=whole.v_prime,
     )

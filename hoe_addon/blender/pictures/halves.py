@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...core.photometry import luminance
 from ...core.sampling_error import Halves
+from ..kept import changed
 from .render import COMBINED
 
 SEQUENCE = 4096
@@ -38,12 +39,8 @@ def one_sequence(cycles: Any) -> Iterator[None]:
     Yields:
         Nothing.
     """
-    kept = cycles.samples
-    cycles.samples = SEQUENCE
-    try:
+    with changed((cycles, {"samples": SEQUENCE})):
         yield
-    finally:
-        cycles.samples = kept
 
 
 class RenderPass(Protocol):

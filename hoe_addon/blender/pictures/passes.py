@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from ..build.device import DeviceScene
 from .render import COMBINED, Progress, Region, render_samples
+from .render_settings import picture_size
 
 DISPLAY_LAYER = "Combined_display"
 LAYERS = (COMBINED, DISPLAY_LAYER)
@@ -69,9 +70,10 @@ class Pass:
     @property
     def pixels(self) -> int:
         """Number of pixels that it renders."""
-        render = self.device.scene.render
-        whole = render.resolution_x * render.resolution_y
-        return whole if self.region is None else self.region.pixels
+        if self.region is not None:
+            return self.region.pixels
+        width, height = picture_size(self.device.scene)
+        return width * height
 
     def render(
         self, seed: int, first: int, count: int, progress: Progress | None = None

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Render a scene to numbers, quietly, with progress and a way to stop."""
 
-import contextlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from ...core.errors import RenderError
 from ...files import scratch_folder
+from ..kept import kept
 from ..quiet import captured_output
 from . import exr
-from .render_settings import write_float_exr
+from .render_settings import picture_size, write_float_exr
 
 type Progress = Callable[[float], None]
 """Called with the finished share of the work, 0 to 1. It may raise CancelledError to stop."""
@@ -106,12 +107,12 @@ def render_samples(
         RenderError: Blender gave no picture, or one that has NaN or infinity in it.
         CancelledError: The progress function asked to stop.
     """
-    width, height = scene.render.resolution_x, scene.render.resolution_y
+    width, height = picture_size(scene)
     step = max(
         1, min(count, _PATHS_PER_PART // (width * height if region is None else region.pixels))
     )
     sums = {layer: np.zeros((height, width, 3)) for layer in layers}
-    with _kept_settings(scene), scratch_folder() as folder:
+    with kept(*_settings(scene)), scratch_folder() as folder:
         path = folder / "layers.exr"
         write_float_exr(scene, path, layers=True)
         scene.cycles.seed = seed
@@ -135,7 +136,7 @@ def _set_region(scene: bpy.types.Scene, region: Region | None) -> None:
     render = scene.render
     render.use_border = region is not None
     if region is not None:
-        width, height = render.resolution_x, render.resolution_y
+        width, height = picture_size(scene)
         render.use_crop_to_border = False
         # Blender multiplies in single precision and cuts the rest off: half a pixel is safe.
         bottom, top = height - region.bottom, height - region.top
@@ -164,10 +165,9 @@ def _render_part(
     return found
 
 
-@contextlib.contextmanager
-def _kept_settings(scene: bpy.types.Scene) -> Iterator[None]:
-    """Give a user's output and sampling settings back after the render."""
-    groups = (
+def _settings(scene: bpy.types.Scene) -> tuple[tuple[Any, Sequence[str]], ...]:
+    """A user's output and sampling settings, which a render changes."""
+    return (
         (
             scene.render.image_settings,
             ("media_type", "file_format", "color_mode", "color_depth", "exr_codec"),
@@ -179,9 +179,3 @@ def _kept_settings(scene: bpy.types.Scene) -> Iterator[None]:
             ("seed", "samples", "use_sample_subset", "sample_offset", "sample_subset_length"),
         ),
     )
-    kept = [(owner, name, getattr(owner, name)) for owner, names in groups for name in names]
-    try:
-        yield
-    finally:
-        for owner, name, value in kept:
-            setattr(owner, name, value)

@@ -65,9 +65,22 @@ def set_path_lengths(scene: bpy.types.Scene, max_bounces: int) -> None:
     scene.cycles.min_transparent_bounces = min(max_bounces, 1024)
 
 
+def picture_size(scene: bpy.types.Scene) -> tuple[int, int]:
+    """Width and height in pixels that Blender renders: the percentage counts, rounded down."""
+    render = scene.render
+    share = render.resolution_percentage
+    return render.resolution_x * share // 100, render.resolution_y * share // 100
+
+
+def size_settings(width: int, height: int) -> dict[str, int]:
+    """What ``Scene.render`` must have for a picture of just so many pixels, by name."""
+    return {"resolution_x": width, "resolution_y": height, "resolution_percentage": 100}
+
+
 def set_picture(scene: bpy.types.Scene, size: tuple[int, int], samples: int) -> None:
     """Set width and height in pixels, and samples per pixel."""
-    scene.render.resolution_x, scene.render.resolution_y = size
+    for name, value in size_settings(*size).items():
+        setattr(scene.render, name, value)
     scene.cycles.samples = samples
 
 

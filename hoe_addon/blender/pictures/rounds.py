@@ -13,6 +13,7 @@ from ..build.device import DeviceScene
 from .division import Division, divided
 from .passes import DISPLAY_LAYER
 from .render import COMBINED, Progress
+from .render_settings import picture_size
 from .view import View
 
 type Layers = dict[str, NDArray[np.float64]]
@@ -70,8 +71,8 @@ def render_in_rounds(
 
 
 def _rounds(device: DeviceScene, counts: tuple[int, ...]) -> int:
-    render = device.scene.render
-    paths = render.resolution_x * render.resolution_y * sum(counts)
+    width, height = picture_size(device.scene)
+    paths = width * height * sum(counts)
     return 1 if paths < _LEAST_PATHS else min(_ROUNDS, *counts)
 
 

@@ -14,19 +14,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ... import resources
-from ...core.photometry import Photometry, measure
+from ...core.arrays import BoolArray
+from ...core.mean_error import mean_error
+from ...core.photometry import luminance, measure
 from ...files import replacing, write_text
 from ...model.device import LightGuideSpec
 from ...model.document import to_document
 from ...model.effects import EffectPlan
 from ...model.field import field_mask
 from ..build.device import DeviceScene
+from ..kept import changed
 from ..quiet import captured_output
 from . import exr
 from .denoiser import denoise
 from .division import Division, divided
 from .passes import DISPLAY_LAYER
 from .render import COMBINED, Progress
+
+_PNG = {"media_type": "IMAGE", "file_format": "PNG", "color_mode": "RGB", "color_depth": "8"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +82,7 @@ def render_view(
 def view_metrics(device: DeviceScene, view: View) -> dict[str, Any]:
     """What a report says of a view; every number carries its unit in its name."""
     unit = device.spec.render.luminance_per_unit_cd_m2
+    everywhere = np.ones(view.picture.shape[:2], dtype=np.bool_)
     metrics: dict[str, Any] = {
         "device": device.spec.name,
         "settings": to_document(device.spec.render),
@@ -84,7 +90,7 @@ def view_metrics(device: DeviceScene, view: View) -> dict[str, Any]:
         "seconds": round(view.seconds, 3),
         "samples": device.scene.cycles.samples,
         "passes": dict(view.samples),
-        "picture": _as_dict(measure(view.picture, unit)),
+        "picture": _measured(view.picture, unit, everywhere),
         "effects": _effects(device.plan),
         "blender": bpy.app.version_string,
         "hoe_addon": resources.version(),
@@ -93,11 +99,11 @@ def view_metrics(device: DeviceScene, view: View) -> dict[str, Any]:
         height, width, _ = view.picture.shape
         inside = field_mask(device.spec, width, height)
         metrics["display_field"] = {
-            "display_light": _as_dict(measure(view.display[inside], unit)),
-            "all_light": _as_dict(measure(view.picture[inside], unit)),
+            "display_light": _measured(view.display, unit, inside),
+            "all_light": _measured(view.picture, unit, inside),
         }
     else:
-        metrics["emitters"] = _as_dict(measure(view.display, unit))
+        metrics["emitters"] = _measured(view.display, unit, everywhere)
     return metrics
 
 
@@ -157,31 +163,21 @@ def save_png(scene: bpy.types.Scene, pixels: NDArray[np.float32], path: Path) ->
     rgba[..., :3] = pixels[::-1]
     image.pixels.foreach_set(rgba.ravel())
     settings = scene.render.image_settings
-    kept = settings.media_type, settings.file_format, settings.color_mode, settings.color_depth
     try:
-        settings.media_type = "IMAGE"
-        settings.file_format, settings.color_mode, settings.color_depth = "PNG", "RGB", "8"
-        with replacing(path) as part:
+        with changed((settings, _PNG)), replacing(path) as part:
             image.save_render(str(part), scene=scene)
     finally:
-        settings.media_type = kept[0]
-        settings.file_format, settings.color_mode, settings.color_depth = kept[1:]
         bpy.data.images.remove(image)
 
 
 def save_blend(path: Path) -> None:
     """Write all that is open as a .blend, which renders the same without this add-on."""
-    preferences = bpy.context.preferences.filepaths
-    kept = preferences.save_version
-    try:
-        # The part exists already, and Blender would keep it beside the file as an older version.
-        preferences.save_version = 0
-        with replacing(path) as part, captured_output():
-            bpy.ops.wm.save_as_mainfile(
-                filepath=str(part), copy=True, compress=True, check_existing=False
-            )
-    finally:
-        preferences.save_version = kept
+    # The part exists already, and Blender would keep it beside the file as an older version.
+    one_version = changed((bpy.context.preferences.filepaths, {"save_version": 0}))
+    with one_version, replacing(path) as part, captured_output():
+        bpy.ops.wm.save_as_mainfile(
+            filepath=str(part), copy=True, compress=True, check_existing=False
+        )
 
 
 def _effects(plan: EffectPlan) -> dict[str, Any]:
@@ -202,7 +198,11 @@ def _effects(plan: EffectPlan) -> dict[str, Any]:
     }
 
 
-def _as_dict(photometry: Photometry) -> dict[str, float | None]:
-    """Numbers for JSON, which knows no NaN: black has no colour."""
-    values = asdict(photometry)
+def _measured(
+    pixels: NDArray[np.float32], unit_cd_m2: float, inside: BoolArray
+) -> dict[str, float | None]:
+    """Numbers on a part of a picture for JSON, which knows no NaN: black has no colour."""
+    error = mean_error(luminance(pixels, unit_cd_m2), inside)
+    found = measure(pixels[inside], unit_cd_m2)
+    values = {**asdict(found), "mean_standard_error_at_most_cd_m2": error}
     return {name: None if np.isnan(value) else value for name, value in values.items()}

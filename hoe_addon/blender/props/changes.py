@@ -20,12 +20,14 @@ class _State:
 
     changed: set[int]
     seen_to: set[int]
+    meanwhile: set[int]
     listeners: list[Listener]
     quiet: int
 
     def __init__(self) -> None:
         self.changed = set()
         self.seen_to = set()
+        self.meanwhile = set()
         self.listeners = []
         self.quiet = 0
 
@@ -51,6 +53,7 @@ def mark_block(block: bpy.types.ID) -> None:
     """
     # Not the datablock itself: it may be gone, or moved by an undo, when the timer runs.
     _state.changed.add(block.session_uid)
+    _state.meanwhile.add(block.session_uid)
     if _state.listeners and not is_waiting():
         bpy.app.timers.register(_tell, first_interval=0.0)
 
@@ -123,14 +126,17 @@ def stop(listener: Listener) -> None:
             bpy.app.timers.unregister(_tell)
         _state.changed.clear()
         _state.seen_to.clear()
+        _state.meanwhile.clear()
 
 
-def _tell() -> None:
-    """Tell all listeners; what changes meanwhile is told them by the next timer."""
+def _tell() -> float | None:
+    """Tell all listeners; what changes meanwhile is told them the next time."""
     batch = frozenset(_state.changed | _state.seen_to)
+    _state.meanwhile.clear()
     try:
         for listener in list(_state.listeners):
             listener(batch)
     finally:
-        _state.changed -= batch
+        _state.changed &= _state.meanwhile
         _state.seen_to.clear()
+    return 0.0 if _state.changed and _state.listeners else None

@@ -23,8 +23,9 @@ from .guide import HOE_PG_engine, HOE_PG_guide, HOE_PG_patch
 from .overlay import HOE_PG_overlay
 from .rendering import HOE_PG_render
 
-VERSION = 2
-"""Version of what a .blend holds: 1 had holograms on materials only."""
+VERSION = 3
+"""Version of what a .blend holds: 1 had holograms on materials only, 2 did not tell what the
+add-on had made from what is the user's."""
 
 
 def _show_patch(group: "HOE_PG_device", context: bpy.types.Context) -> None:

@@ -12,7 +12,7 @@ from bpy.props import StringProperty as TextProperty
 
 from ...core.spectrum import DISPLAY_PRIMARIES
 from ...model.reading import parse_json
-from ..ids import PictureKind, White
+from ..ids import PictureKind, Primaries, White
 from ..registration import class_registrars
 from .changes import mark
 from .values import number, numbers, reset, store
@@ -26,9 +26,8 @@ SIZE_LIMITS = {
     "soft_max": 500.0,
     "step": 100,
     "precision": 3,
-    "unit": "LENGTH",
 }
-"""Limits, slider range, digits and unit of every length in mm, which is the unit of the scene."""
+"""Limits, slider range and digits of every length in mm."""
 
 _SETS = ", ".join(DISPLAY_PRIMARIES)
 
@@ -45,7 +44,6 @@ def length(name: str, words: str, default: float) -> Any:
         soft_max=500.0,
         step=10,
         precision=3,
-        unit="LENGTH",
     )
 
 
@@ -81,11 +79,21 @@ def take_picture(group: bpy.types.PropertyGroup, name: str, image: bpy.types.Ima
         group.picture, group.image = PictureKind.IMAGE, image
 
 
-def _known_primaries(
-    _group: bpy.types.PropertyGroup, _context: bpy.types.Context, _typed: str
-) -> list[str]:
-    """Sets to choose from in the panel; other text can be typed all the same."""
-    return list(DISPLAY_PRIMARIES)
+def _kind_of_primaries(group: "HOE_PG_display") -> int:
+    known = Primaries.__members__.values()
+    found = next((each for each in known if each == group.primaries.strip()), Primaries.OWN)
+    return found.number
+
+
+def _choose_primaries(group: "HOE_PG_display", chosen: int) -> None:
+    """Write the name of a set; own lines begin as those of the set before."""
+    kind = next(each for each in Primaries if each.number == chosen)
+    if kind != Primaries.OWN:
+        group.primaries = kind.value
+    elif group.primaries.strip() in DISPLAY_PRIMARIES:
+        bands = DISPLAY_PRIMARIES[group.primaries.strip()].bands_nm
+        lines = [{"centre_nm": centre, "fwhm_nm": wide} for centre, wide in bands]
+        group.primaries = json.dumps(lines)
 
 
 class HOE_PG_display(bpy.types.PropertyGroup):
@@ -132,9 +140,15 @@ class HOE_PG_display(bpy.types.PropertyGroup):
         description=f"Spectra of red, green and blue: {_SETS}, or the JSON of three lines with "
         "centre_nm and fwhm_nm",
         default=next(iter(DISPLAY_PRIMARIES)),
-        search=_known_primaries,
-        search_options={"SUGGESTION"},
         update=mark,
+    )
+    kind_of_primaries: EnumProperty(
+        name="Primaries",
+        description="What makes the red, green and blue of the display",
+        items=Primaries.items(),
+        get=_kind_of_primaries,
+        set=_choose_primaries,
+        options=set(),
     )
 
     def to_document(self) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from bpy.props import (
     EnumProperty,
     FloatProperty,
     FloatVectorProperty,
+    IntProperty,
     PointerProperty,
     StringProperty,
 )
@@ -78,6 +79,10 @@ class HOE_PG_element(bpy.types.PropertyGroup):
         name="Details",
         description="JSON of the fields of this element that have no properties",
         update=mark,
+    )
+    rank: IntProperty(
+        description="Where the element stands in its document; equal ones stand in order of name",
+        options={"HIDDEN"},
     )
     made_of: StringProperty(
         description="What the object was last made of, to see what has changed",

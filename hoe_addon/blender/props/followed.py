@@ -11,7 +11,7 @@ from ...model.field_error import FieldError
 from ...model.motion import to_wave
 from ...shading.following import ROLES
 from ...shading.hologram import Frame
-from ..ids import PatternKind, WaveKind
+from ..ids import PatternKind, Role, WaveKind
 from ..shaders.following import Followed, lamp_like
 from .values import numbers
 
@@ -75,20 +75,35 @@ def read_followed_roles(material: bpy.types.Material) -> tuple[str, ...]:
     return tuple(role for role in ROLES if getattr(properties.recording, role).follows)
 
 
+def carries(item: bpy.types.Object, material: bpy.types.Material) -> bool:
+    """Tell whether an object has a material, by its mesh or by a slot of its own.
+
+    Args:
+        item: The object.
+        material: The material, or its evaluated self.
+    """
+    return any(slot.material == material.original for slot in item.material_slots)
+
+
 def carrier_of(material: bpy.types.Material) -> bpy.types.Object | None:
     """Find the object that carries a hologram.
 
     Args:
-        material: The material.
+        material: The material, or its evaluated self.
 
     Returns:
-        The first object by name whose mesh has the material, or None.
+        One of the scene that is shown, if it can be; there, parts of a device come before other
+        objects, those of this file before linked ones, then it goes by name. Or None.
     """
-    for item in bpy.data.objects:
-        slots = getattr(item.data, "materials", None) or ()
-        if any(slot == material.original for slot in slots):
-            return item
+    for items in (bpy.context.scene.objects, bpy.data.objects):
+        found = [item for item in items if carries(item, material)]
+        if found:
+            return min(found, key=_rank)
     return None
+
+
+def _rank(item: bpy.types.Object) -> tuple[bool, bool, str]:
+    return (item.hologram.role == Role.NONE, item.library is not None, item.name)
 
 
 def read_frame(material: bpy.types.Material) -> Frame:

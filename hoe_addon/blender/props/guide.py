@@ -41,7 +41,6 @@ class HOE_PG_guide(bpy.types.PropertyGroup):
         default=(0.0, 0.0),
         step=100,
         precision=3,
-        unit="LENGTH",
         update=mark,
     )
     relief_mm: length("Eye Relief", "Distance from the eye's pupil to the plate", 18.0)
@@ -87,7 +86,6 @@ class HOE_PG_patch(bpy.types.PropertyGroup):
         default=(0.0, 0.0),
         step=100,
         precision=3,
-        unit="LENGTH",
         update=mark,
     )
     size_mm: FloatVectorProperty(

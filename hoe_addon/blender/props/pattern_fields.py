@@ -50,8 +50,8 @@ class FunctionFields:
     )
     lines_per_mm: number(
         in_details("lines_per_mm"),
-        "Lines per mm",
-        "Grating lines in one mm",
+        "Lines",
+        "Lines of the grating in one mm",
         600.0,
         (0.0, 1e6),
         soft_max=3000.0,

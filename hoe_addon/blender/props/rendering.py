@@ -101,8 +101,9 @@ class HOE_PG_render(bpy.types.PropertyGroup):
         default=True,
     )
     spectrum_floor: FloatProperty(
-        name="Spectrum Floor",
-        description="Share of the wavelengths kept for light other than that of displays and lamps",
+        name="Even Share",
+        description="Share of the paths whose wavelengths are drawn evenly, for light that no "
+        "display or lamp gives, such as that of the room",
         default=0.5,
         min=1e-3,
         max=1.0,
@@ -121,8 +122,8 @@ class HOE_PG_render(bpy.types.PropertyGroup):
         update=mark,
     )
     max_bounces: IntProperty(
-        name="Most Surfaces",
-        description="Most surfaces that a path may pass",
+        name="Bounces",
+        description="Most surfaces that a path of light may pass or be reflected at",
         default=128,
         min=1,
         max=1024,

@@ -12,6 +12,7 @@ import bpy
 
 from ...core.errors import HoeError, MissingOslError, NotMadeError, SpecError
 from ...model.document import hologram_from, to_document
+from ...model.field_error import FieldError
 from ...model.hologram import HologramSpec
 from ...shading.hologram import Frame, hologram_shader, hologram_sockets
 from .. import whole_undo
@@ -63,11 +64,15 @@ def write_spec(
         properties.enabled = True
 
 
-def read_spec(material: bpy.types.Material) -> HologramSpec:
+def read_spec(
+    material: bpy.types.Material, carrier: bpy.types.Object | None = None
+) -> HologramSpec:
     """Make the hologram that the properties of a material describe.
 
     Args:
         material: The material; its name is the name of the hologram.
+        carrier: Object in whose frame a wave that follows another one is given; by default that
+            of ``carrier_of``. It matters where several objects carry the material.
 
     Returns:
         The valid hologram. What `write_spec` wrote comes back within the limits of `values`. A
@@ -75,22 +80,27 @@ def read_spec(material: bpy.types.Material) -> HologramSpec:
 
     Raises:
         SpecError: With the path of the field, the rule, and the value; or the material is no
-            hologram.
+            hologram; or a wave follows an object and nothing carries the hologram.
     """
-    if read_followed_roles(material):
+    roles = read_followed_roles(material)
+    if roles:
         # A script may have moved things since Blender last looked.
         bpy.context.view_layer.update()
-    return _spec_of(material)
+        carrier = carrier or carrier_of(material)
+        if carrier is None:
+            rule = "must be off where no object carries the hologram; give its material to one"
+            raise FieldError(f"recording.{roles[0]}.follows", rule, True)
+    return _spec_of(material, carrier)
 
 
-def _spec_of(material: bpy.types.Material) -> HologramSpec:
+def _spec_of(material: bpy.types.Material, carrier: bpy.types.Object | None) -> HologramSpec:
     properties = properties_of(material)
     if not properties.enabled:
         raise SpecError(f"material {material.name}: is not a hologram")
     document = properties.to_document()
     for role, entry in read_followed(material).items():
         frame, units = read_frame(material), number(properties, "units_per_mm")
-        wave = in_frame_of(entry, carrier_of(material), frame.matrix(), units)
+        wave = in_frame_of(entry, carrier, frame.matrix(), units)
         document["recording"][role] = to_document(wave)
     return hologram_from(document)
 
@@ -184,7 +194,8 @@ def _try(material: bpy.types.Material, *, make: bool) -> None:
 
 def _write(material: bpy.types.Material, source: bpy.types.Material, *, make: bool) -> bool:
     """Write what the properties of ``source``, the material or its evaluated self, say."""
-    spec, followed = _spec_of(source), read_followed(source)
+    # The shader knows where each object that has it stands: any of them will do here, or none.
+    spec, followed = _spec_of(source, carrier_of(source)), read_followed(source)
     waves, frame = waves_of(followed), read_frame(source)
     units_per_mm = number(source.hologram, "units_per_mm")
     keep_packed(material)

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 import bpy
 
+from ..marks import mark
 from ..shaders import nodes
 
 type Colour = tuple[float, float, float]
@@ -67,7 +68,7 @@ def glowing(name: str, colour: Colour, radiance: float) -> bpy.types.Material:
 def _surface(
     name: str, kind: str, output_name: str, values: dict[str, float | tuple[float, ...]]
 ) -> tuple[bpy.types.Material, bpy.types.Node]:
-    material = bpy.data.materials.new(name)
+    material = mark(bpy.data.materials.new(name))
     tree = nodes.new_tree(material)
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     surface = tree.nodes.new(kind)

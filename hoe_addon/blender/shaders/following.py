@@ -98,7 +98,7 @@ def in_frame_of(
 
     Args:
         followed: The wave.
-        carrier: Object that carries the hologram; None for one at the origin of the world.
+        carrier: Object that carries the hologram; None stands for one at the world's origin.
         frame: Frame of the recording in the carrier's space, in scene units, shape ``(4, 4)``.
         units: Scene units in one mm.
 

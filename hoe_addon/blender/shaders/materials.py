@@ -17,6 +17,7 @@ from ...shading.hologram import Frame, hologram_shader, hologram_sockets
 from ...shading.medium import medium_sockets
 from ...shading.source import specialised
 from ...shading.wavelength import display_shader, filter_shader, one_wavelength_display_shader
+from ..marks import mark
 from ..props import sync
 from ..props.made import note_made
 from . import nodes
@@ -176,7 +177,7 @@ def filter_material(spectral: SpectralScene) -> bpy.types.Material:
 
 def absorber_material(name: str = "Black") -> bpy.types.Material:
     """A perfectly black surface."""
-    material = bpy.data.materials.new(name)
+    material = mark(bpy.data.materials.new(name))
     tree = nodes.new_tree(material)
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     black = tree.nodes.new("ShaderNodeBsdfDiffuse")

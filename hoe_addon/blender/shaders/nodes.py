@@ -10,6 +10,7 @@ import bpy
 
 from ...shading.interface import Parameter, ParameterKind, parameters
 from ...shading.source import ShaderSource
+from ..marks import mark
 from ..quiet import captured_output
 from .osl import compiled
 
@@ -107,7 +108,7 @@ def script_material(
     Returns:
         The material.
     """
-    material = bpy.data.materials.new(name)
+    material = mark(bpy.data.materials.new(name))
     tree = new_tree(material)
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     node = add_script_node(tree, source, values)

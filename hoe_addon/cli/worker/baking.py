@@ -14,7 +14,7 @@ def run(work: Work) -> dict[str, Any]:
     """Make what is not in the cache.
 
     Args:
-        work: The job; its setting ``material`` is the name of the hologram's material.
+        work: The job; its setting ``material`` is the name of a material of this file.
 
     Returns:
         What the window shows of it.
@@ -28,7 +28,8 @@ def run(work: Work) -> dict[str, Any]:
     from ...blender.shaders.tables import prepare_table
 
     name = work.settings["material"]
-    material = bpy.data.materials[name]
+    # A library may have one of the same name.
+    material = next(m for m in bpy.data.materials if m.name == name and m.library is None)
     spec, waves = read_spec(material), waves_of(read_followed(material))
     made_map = prepare_map(spec, waves, lambda share: work.progress(_MAP_SHARE * share))
     table = prepare_table(

@@ -38,7 +38,8 @@ def run(work: Work) -> dict[str, Any]:
     without = "" if plot else "; without the diagram, for Blender has no matplotlib"
     files = [name for name in FILES if plot or name != "accuracy.png"]
     return {
-        "words": f"{len(report['runs'])} settings measured{without}",
+        "words": f"{len(report['runs'])} settings measured in {found.spent.total:.0f} s, "
+        f"{budget:g} s asked{without}",
         "stopped": found.stopped,
         "folder": str(work.out),
         "page": str(work.out / "accuracy.html"),

@@ -233,11 +233,6 @@ class NodeSource:
             raise SpecError(f"efficiency.model: {rule} for light from the {side} at {where}")
 
 
-def backward_source(source: NodeSource) -> NodeSource:
-    """The same model, looked at by rays that are walked backward; see `NodeSource`."""
-    return replace(source, backward=True).polarised(source.polarization)
-
-
 def propagates(light: Incidence, branches: Sequence[Branch]) -> BoolArray:
     """Tell which branches propagate.
 

@@ -112,7 +112,8 @@ def _energy(lit: Lit, model: ModelShares) -> Finding:
         words = "energy that a lossless grating loses or gains, of s or p light"
         found = _most(lit, name, "|1 - R - T|", np.abs(lost).max(axis=1), MOST_LOSS, words)
     else:
-        words = "energy that goes out more than comes in, of s or p light"
+        share = f"{100.0 * (1.0 - lost.min()):.6g} %"
+        words = f"at most {share} of the light goes out, s or p, and no more than 100 % may"
         found = _most(lit, name, "R + T - 1", (-lost).max(axis=1), MOST_LOSS, words)
     return replace(found, breach="does not keep the energy")
 

@@ -4,6 +4,7 @@
 
 import numpy as np
 
+from ...core.arrays import FloatArray
 from ...core.units import nm_to_m
 from .. import medium
 from ..efficiency import KogelnikSpec, RcwaSpec
@@ -16,19 +17,20 @@ _ROUNDED = 1e-4
 """Fringes that are too narrow by this share, as written with few digits, count as on Bragg."""
 
 
-def usual_light(spec: HologramSpec) -> Angles:
+def usual_light(spec: HologramSpec, at_mm: FloatArray | None = None) -> Angles:
     """Choose light that a hologram is meant for.
 
     Args:
         spec: The hologram.
+        at_mm: The place on the surface, mm, shape ``(3,)``; None is the centre.
 
     Returns:
         The reference wave of a recording; for the fringes of a volume grating without one, light
         whose order +1 is on Bragg at the wavelength of the pattern; else light along the normal.
     """
     if isinstance(spec.pattern, RecordingSpec):
-        return reference_light(spec)
-    lit = light_on(spec, [spec.pattern.wavelength_nm], [0.0], [0.0], from_front=False)
+        return reference_light(spec, at_mm)
+    lit = light_on(spec, [spec.pattern.wavelength_nm], [0.0], [0.0], from_front=False, at_mm=at_mm)
     fringes = None
     if isinstance(spec.efficiency, KogelnikSpec):
         fringes = of_kogelnik(spec.efficiency, lit.incidence)

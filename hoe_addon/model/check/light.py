@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: hoe_addon contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The light that a hologram is checked with, at the centre of the element."""
+"""The light that a hologram is checked with, at the centre of the element or beside it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ import numpy as np
 from ...core.arrays import FloatArray, as_float
 from ...core.efficiency import Incidence, meet
 from ...core.recording import Recording
-from ...core.units import mm_to_m, nm_to_m
+from ...core.units import m_to_mm, mm_to_m, nm_to_m
 from .. import medium
 from ..convert import pattern_from
 from ..element import element_shape
@@ -39,19 +39,21 @@ class Angles:
 
 @dataclass(frozen=True, eq=False)
 class Lit:
-    """N rays at the centre of a hologram.
+    """N rays at one place of a hologram.
 
     Attributes:
+        point_mm: The place, shape ``(3,)``.
         wavelength_nm: Vacuum wavelengths, nm, shape ``(N,)``.
         theta_deg: Angles from the normal, degrees, shape ``(N,)``.
         phi_deg: Azimuths, degrees, shape ``(N,)``.
         direction: Unit directions of travel, shape ``(N, 3)``.
-        normal: Unit normal at the centre, shape ``(3,)``.
+        normal: Unit normal at the place, shape ``(3,)``.
         gradient: grad V, shape ``(N, 3)``.
         incidence: The same light in the frame of the grating.
         recorded_nm: Wavelength that the pattern is stated for, nm.
     """
 
+    point_mm: FloatArray
     wavelength_nm: FloatArray
     theta_deg: FloatArray
     phi_deg: FloatArray
@@ -70,6 +72,32 @@ class Lit:
         )
 
 
+_PLACES = ((0.5, 0.0), (0.25, 0.0), (0.75, 0.0), (0.95, 0.0), (-0.5, 0.0), (0.0, 0.5), (0.0, -0.5))
+"""Where else it is looked for a grating, as shares of half the width and half the height."""
+
+
+def recorded_place_mm(spec: HologramSpec) -> FloatArray:
+    """Find the place nearest the centre of a hologram, of a few, where something is recorded.
+
+    Args:
+        spec: The hologram.
+
+    Returns:
+        The centre, or a place beside it, such as for rings, which have no direction in their
+        middle; the centre where nothing is recorded at any of them. In mm, shape ``(3,)``.
+    """
+    centre = centre_mm(spec)
+    shape, pattern = element_shape(spec), pattern_from(spec.pattern)
+    half = mm_to_m(np.asarray(spec.surface.size_mm)) / 2.0
+    x, y = half[:, None] * as_float(_PLACES).T
+    beside = np.stack((x, y, shape.sag(x, y)), axis=-1)
+    points = np.concatenate((mm_to_m(centre)[None], beside))
+    gradients = np.broadcast_to(pattern.gradient(points), points.shape)
+    known = np.isfinite(points).all(axis=-1) & np.isfinite(gradients).all(axis=-1)
+    first = int(np.argmax(known))
+    return m_to_mm(points[first]) if first else centre
+
+
 def light_on(
     spec: HologramSpec,
     wavelengths_nm: Sequence[float],
@@ -77,8 +105,9 @@ def light_on(
     phis_deg: Sequence[float],
     *,
     from_front: bool,
+    at_mm: FloatArray | None = None,
 ) -> Lit:
-    """Send a ray of every wavelength, angle and azimuth to the centre of a hologram.
+    """Send a ray of every wavelength, angle and azimuth to one place of a hologram.
 
     Args:
         spec: The hologram; of extended sources the middle point counts.
@@ -86,6 +115,7 @@ def light_on(
         thetas_deg: Angles from the normal in their own medium, degrees.
         phis_deg: Azimuths, degrees.
         from_front: Whether all come from z > 0.
+        at_mm: The place on the surface, mm, shape ``(3,)``; None is the centre.
 
     Returns:
         The rays, wavelengths outermost.
@@ -96,7 +126,8 @@ def light_on(
     rows = as_float(list(product(wavelengths_nm, thetas_deg, phis_deg)))
     colour, theta, phi = rows.T
     direction = incident_direction(theta, phi, from_front=from_front)
-    point, wavelength = mm_to_m(centre_mm(spec)), nm_to_m(colour)
+    point_mm = centre_mm(spec) if at_mm is None else at_mm
+    point, wavelength = mm_to_m(point_mm), nm_to_m(colour)
     normal = element_shape(spec).normal(point)
     back, front = (
         medium_from(side).index(wavelength) for side in (spec.media.back, spec.media.front)
@@ -105,14 +136,15 @@ def light_on(
     gradient, incidence = meet(pattern, point, None, normal, direction, wavelength, (back, front))
     whole = np.broadcast_to(gradient, direction.shape)
     recorded_nm = spec.pattern.wavelength_nm
-    return Lit(colour, theta, phi, direction, normal, whole, incidence, recorded_nm)
+    return Lit(point_mm, colour, theta, phi, direction, normal, whole, incidence, recorded_nm)
 
 
-def reference_light(spec: HologramSpec) -> Angles:
-    """The reference wave where it meets the centre of a hologram, or light along the normal.
+def reference_light(spec: HologramSpec, at_mm: FloatArray | None = None) -> Angles:
+    """The reference wave where it meets a place of a hologram, or light along the normal.
 
     Args:
         spec: The hologram.
+        at_mm: The place on the surface, mm, shape ``(3,)``; None is the centre.
 
     Returns:
         Its angles, in the medium of the side that it comes from.
@@ -121,7 +153,8 @@ def reference_light(spec: HologramSpec) -> Angles:
     pattern = pattern_from(spec.pattern)
     if not isinstance(pattern, Recording):
         return straight
-    x, y, z = (float(part) for part in pattern.waves(mm_to_m(centre_mm(spec)))[1])
+    point_mm = centre_mm(spec) if at_mm is None else at_mm
+    x, y, z = (float(part) for part in pattern.waves(mm_to_m(point_mm))[1])
     side = "front" if z < 0.0 else "back"
     index = medium.index_at(spec.media, side, spec.pattern.wavelength_nm)
     sine = float(np.hypot(x, y)) / index

@@ -13,6 +13,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ...blender.props import changes
+from ..sparing import Sparing
 
 _REGIONS = {"VIEW_3D": "UI", "PROPERTIES": "WINDOW"}
 """Region, by editor, that shows facts."""
@@ -38,7 +39,7 @@ class Facts[B: bpy.types.ID, F]:
             of_any_change: Whether they depend on other datablocks, such as a scene's on its
                 holograms: then every change counts.
             stamp: What they depend on beside properties, such as the place of an object; asked
-                whenever anything in the scene has changed, so it has to be quick.
+                soon after anything in the scene has changed.
         """
         self._blocks = blocks
         self._work_out = work_out
@@ -52,7 +53,8 @@ class Facts[B: bpy.types.ID, F]:
         self._listener = self._hear
         self._undo_handler = persistent(lambda *_: self._want(self._known))
         self._load_handler = persistent(lambda *_: self._forget())
-        self._depsgraph_handler = persistent(lambda *_: self._compare_stamps())
+        self._comparing = Sparing(self._compare_stamps)
+        self._depsgraph_handler = persistent(lambda *_: self._comparing.ask())
 
     def shown(self, block: B) -> F | None:
         """Look up what is known, and ask for it where nothing is.
@@ -104,6 +106,7 @@ class Facts[B: bpy.types.ID, F]:
         bpy.app.handlers.load_post.remove(self._load_handler)
         if self._stamp is not None:
             bpy.app.handlers.depsgraph_update_post.remove(self._depsgraph_handler)
+        self._comparing.stop()
         for timer in (self._timer, _tag_regions):
             if bpy.app.timers.is_registered(timer):
                 bpy.app.timers.unregister(timer)

@@ -12,7 +12,7 @@ from ...core.efficiency import Polarization
 from ...core.efficiency.table import EfficiencyTable
 from ...core.errors import SpecError
 from ...core.orders import Branch, order_weights
-from ...model.check import light_on, usual_light
+from ...model.check import light_on, recorded_place_mm, usual_light
 from ...model.check.light import Angles, Lit
 from ...model.hologram import HologramSpec
 
@@ -28,10 +28,10 @@ type Way = tuple[int, bool]
 
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """Shares of the traced orders at the centre of a hologram, unpolarised.
+    """Shares of the traced orders at one place of a hologram, unpolarised.
 
     Attributes:
-        ways: The ways out that get light.
+        ways: The ways out that get light; none where no grating was found.
         light: Angle of the light for the wavelengths, and in whose plane it is tilted for the
             angles.
         recorded_nm: Wavelength of the light for the angles, nm.
@@ -61,17 +61,25 @@ def curves_of(spec: HologramSpec, table: EfficiencyTable | None = None) -> Curve
     Raises:
         SpecError: A medium has no index at the wavelength of the pattern.
     """
-    light = usual_light(spec)
+    place_mm = recorded_place_mm(spec)
+    light = usual_light(spec, place_mm)
     recorded_nm = spec.pattern.wavelength_nm
     ways, sides = _ways(spec)
 
     def shares(wavelengths: Sequence[float], angles: Sequence[float]) -> FloatArray:
-        lit = light_on(spec, wavelengths, angles, [light.phi_deg], from_front=light.from_front)
+        lit = light_on(
+            spec,
+            wavelengths,
+            angles,
+            [light.phi_deg],
+            from_front=light.from_front,
+            at_mm=place_mm,
+        )
         return _summed(_weights(spec, table, lit, ways), ways, sides)
 
     by_angle = shares([recorded_nm], ANGLES_DEG.tolist())
     by_wavelength = _by_wavelength(lambda nm: shares(nm, [light.theta_deg]), len(sides))
-    highest = np.fmax(np.nanmax(by_angle, axis=0), np.nanmax(by_wavelength, axis=0))
+    highest = np.fmax(_highest(by_angle), _highest(by_wavelength))
     chosen = sorted(np.argsort(-highest)[:MOST_CURVES])
     chosen = [place for place in chosen if highest[place] > _LEAST]
     return Curves(
@@ -81,6 +89,11 @@ def curves_of(spec: HologramSpec, table: EfficiencyTable | None = None) -> Curve
         by_wavelength[:, chosen],
         by_angle[:, chosen],
     )
+
+
+def _highest(shares: FloatArray) -> FloatArray:
+    """Most that each way gets; 0 where nothing is known of it."""
+    return as_float(np.max(np.nan_to_num(shares), axis=0))
 
 
 def _ways(spec: HologramSpec) -> tuple[tuple[Branch, ...], list[Way]]:

@@ -9,9 +9,11 @@ from dataclasses import dataclass
 import bpy
 import msgspec
 
+from ...blender.add.elements import has_eye
 from ...blender.document import foreign
 from ...blender.document.held import document_of, has_device
 from ...blender.document.size import enlargement
+from ...blender.props.sync import read_spec
 from ...core.errors import HoeError
 from ...model.contents import digest
 from ...model.device import DeviceSpec, LightGuideSpec
@@ -19,6 +21,7 @@ from ...model.field import field_degrees
 from ...model.scene import SceneSpec
 from ...model.scene_parts import DisplayElement, HologramElement
 from ...model.scene_view import chief_ray, image_distance_mm
+from ..wording import part_of
 
 _MOST_PAIRS = 4
 """Pairs of a hologram and a display whose image is looked for; each takes some milliseconds."""
@@ -48,7 +51,7 @@ class DeviceFacts:
     """What panels say of the device in a scene.
 
     Attributes:
-        lines: Its numbers.
+        lines: Its numbers, as its eye sees it; none without an eye.
         problem: Why its properties make no valid document; empty where they do.
         foreign: Names of things in the scene that the document does not know.
         enlargement: How many times its true size the device has in the scene.
@@ -76,14 +79,27 @@ def device_facts(scene: bpy.types.Scene) -> DeviceFacts:
     try:
         spec = document_of(scene)
     except HoeError as error:
-        return DeviceFacts(problem=str(error), foreign=foreign.things(scene))
+        return DeviceFacts(problem=_problem(scene, error), foreign=foreign.things(scene))
     return DeviceFacts(
-        tuple(lines_of(spec)),
+        tuple(lines_of(spec)) if has_eye(scene) else (),
         scene.hologram.problem,
         foreign.things(scene),
         enlargement(scene),
         plan_digest(spec),
     )
+
+
+def _problem(scene: bpy.types.Scene, error: HoeError) -> str:
+    """Say what is wrong; of a hologram only where, for its own panels tell what."""
+    for item in scene.objects:
+        for slot in item.material_slots:
+            if slot.material is None or not slot.material.hologram.enabled:
+                continue
+            try:
+                read_spec(slot.material, item)
+            except HoeError as found:
+                return f"Problem in the {part_of(str(found)) or 'hologram'} of {item.name}"
+    return str(error)
 
 
 def lines_of(spec: DeviceSpec) -> Iterator[Line]:
@@ -139,7 +155,7 @@ def _scene_lines(spec: SceneSpec) -> Iterator[Line]:
     width, height = spec.render.size
     tangent = math.tan(math.radians(spec.eye.field_deg) / 2.0) * height / width
     up = 2.0 * math.degrees(math.atan(tangent))
-    yield Line("View of the Eye", f"{spec.eye.field_deg:.3g}° x {up:.3g}°")
+    yield Line("Field of View", f"{spec.eye.field_deg:.3g}° x {up:.3g}°")
     holograms = [each for each in spec.elements if isinstance(each, HologramElement)]
     displays = [each for each in spec.elements if isinstance(each, DisplayElement)]
     pairs = [(hologram, display) for hologram in holograms for display in displays]

@@ -10,12 +10,13 @@ import numpy as np
 from ...blender.props.followed import carrier_of, read_followed_roles
 from ...blender.props.sync import read_spec
 from ...blender.shaders.tables import prepare_table
+from ...core.arrays import FloatArray
 from ...core.efficiency.table import EfficiencyTable
 from ...core.errors import HoeError, NotMadeError
 from ...core.orders import Branch
 from ...core.ray_law import Status
 from ...core.units import mm_to_m
-from ...model.check import light_on
+from ...model.check import light_on, recorded_place_mm
 from ...model.check.light import Lit
 from ...model.convert import pattern_from
 from ...model.efficiency import KinoformSpec, KogelnikSpec, RcwaSpec
@@ -34,6 +35,7 @@ _MOST_PEAKS = 2
 _STEEPEST_DEG = 60.0
 """Peaks are looked for up to this angle; beyond it hardly any light goes."""
 _TO_THE_EDGE = 0.4999
+_NO_LIGHT = "No order gets light where this was worked out, so there is no plot"
 _LEAST_LINES = 1e-6
 """Of those at the edge; fewer are none but for rounding."""
 
@@ -45,6 +47,7 @@ class MaterialFacts:
     Attributes:
         problem: Why the hologram is not valid, or nothing.
         grating: Lines about what is recorded.
+        place: Where that and the efficiencies hold, if not at the centre; else nothing.
         efficiency: Lines about how the light is shared.
         plot: Icon of the plot, 0 where there is none.
         without_plot: Why there is no plot, or nothing.
@@ -53,6 +56,7 @@ class MaterialFacts:
 
     problem: str = ""
     grating: tuple[Line, ...] = ()
+    place: str = ""
     efficiency: tuple[Line, ...] = ()
     plot: int = 0
     without_plot: str = ""
@@ -72,11 +76,13 @@ def facts_of(material: bpy.types.Material) -> MaterialFacts:
         return MaterialFacts()
     try:
         spec = read_spec(material)
-        grating = _grating(spec)
+        place_mm = recorded_place_mm(spec)
+        grating = _grating(spec, place_mm)
     except HoeError as error:
         return MaterialFacts(problem=str(error))
     known = MaterialFacts(
         grating=grating,
+        place=_place(spec, place_mm),
         efficiency=tuple(_relief(spec)),
         check=last_check(material.session_uid, spec),
     )
@@ -86,6 +92,8 @@ def facts_of(material: bpy.types.Material) -> MaterialFacts:
         return replace(known, without_plot="The plot is there once the table is baked")
     except HoeError as error:
         return replace(known, without_plot=str(error))
+    if not curves.ways:
+        return replace(known, without_plot=_NO_LIGHT)
     return replace(
         known,
         efficiency=(*_peaks(curves), *known.efficiency, *_bragg(spec, curves)),
@@ -100,19 +108,26 @@ def _table(spec: HologramSpec) -> EfficiencyTable | None:
     return None
 
 
-def _grating(spec: HologramSpec) -> tuple[Line, ...]:
+def _place(spec: HologramSpec, place_mm: FloatArray) -> str:
+    aside_mm = float(np.linalg.norm(place_mm - centre_mm(spec)))
+    if not aside_mm:
+        return ""
+    return f"At {aside_mm:.3g} mm from the centre: nothing is recorded in the middle"
+
+
+def _grating(spec: HologramSpec, place_mm: FloatArray) -> tuple[Line, ...]:
     recorded_nm = spec.pattern.wavelength_nm
-    lit = light_on(spec, [recorded_nm], [0.0], [0.0], from_front=False)
+    lit = light_on(spec, [recorded_nm], [0.0], [0.0], from_front=False, at_mm=place_mm)
     # Where nothing is recorded the frequency is NaN.
-    centre, finest = float(np.nan_to_num(lit.incidence.frequency[0])), _finest(spec)
+    here, finest = float(np.nan_to_num(lit.incidence.frequency[0])), _finest(spec)
     lines: list[Line] = []
-    if centre > _LEAST_LINES * max(1.0, finest):
+    if here > _LEAST_LINES * max(1.0, finest):
         lines = [
-            Line("Period", _period(centre)),
-            Line("Lines", f"{centre / 1e3:.4g} per mm"),
+            Line("Period", _period(here)),
+            Line("Lines", f"{here / 1e3:.4g} per mm"),
             Line("Order +1", _first_order(spec, lit)),
         ]
-    if finest > 1.01 * centre:
+    if finest > 1.01 * here:
         lines.append(Line("Finest Period", _period(finest)))
     return tuple(lines) or (Line("Grating", "none"),)
 
@@ -140,8 +155,7 @@ def _finest(spec: HologramSpec) -> float:
 def _first_order(spec: HologramSpec, lit: Lit) -> str:
     """Where order +1 goes, for light along the normal."""
     ways = (Branch(1), Branch(1, reflected=True))
-    point = centre_mm(spec)
-    out = fan(spec, point, lit.direction[0], spec.pattern.wavelength_nm, ways)
+    out = fan(spec, lit.point_mm, lit.direction[0], spec.pattern.wavelength_nm, ways)
     lit_ways = out.weights[:2] > 0.0
     chosen = 1 if lit_ways[1] and not lit_ways[0] else 0
     if out.status[chosen] != Status.OK:

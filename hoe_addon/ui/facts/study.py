@@ -32,6 +32,7 @@ class _Position(msgspec.Struct, frozen=True):
     uniformity: float
     u_prime: float | None
     v_prime: float | None
+    uniformity_standard_error: float | None = None
 
     def luminance(self) -> str:
         """Its mean luminance with the standard error."""
@@ -44,6 +45,7 @@ class _Survey(msgspec.Struct, frozen=True):
     grid: tuple[int, int]
     eyebox_uniformity: float
     positions: tuple[_Position, ...]
+    eyebox_uniformity_standard_error: float | None = None
 
 
 class EyeboxResult(msgspec.Struct, frozen=True):
@@ -130,12 +132,14 @@ def _eyebox_facts(text: str) -> EyeboxFacts | None:
     positions = kept.report.positions
     brightest = max(positions, key=lambda each: each.mean_cd_m2)
     darkest = min(positions, key=lambda each: each.mean_cd_m2)
-    worst = min(each.uniformity for each in positions)
+    worst = min(positions, key=lambda each: each.uniformity)
+    field = _percent(worst.uniformity, worst.uniformity_standard_error)
+    eyebox = _percent(kept.report.eyebox_uniformity, kept.report.eyebox_uniformity_standard_error)
     lines = [
         Line("Brightest Pupil", brightest.luminance()),
         Line("Darkest Pupil", darkest.luminance()),
-        Line("Eyebox", f"{kept.report.eyebox_uniformity * 100:.0f} % min/max"),
-        Line("Field", f"{worst * 100:.0f} %, worst pupil"),
+        Line("Eyebox", f"{eyebox} min/max"),
+        Line("Field", f"{field}, worst pupil"),
     ]
     colours = [
         (each.u_prime, each.v_prime)
@@ -146,6 +150,12 @@ def _eyebox_facts(text: str) -> EyeboxFacts | None:
         apart = max(math.dist(one, other) for one, other in combinations(colours, 2))
         lines.append(Line("Colour", f"{apart:.3f} largest delta u'v'"))
     return EyeboxFacts(tuple(lines), _rows(kept.report), kept.folder, kept.digest)
+
+
+def _percent(share: float, error: float | None) -> str:
+    """A share with its standard error, which results of older versions do not have."""
+    spread = "" if error is None else f" ± {float(f'{error * 100:.1g}'):g}"
+    return f"{share * 100:.0f}{spread} %"
 
 
 def _rows(report: _Survey) -> tuple[tuple[str, ...], ...]:

@@ -92,7 +92,8 @@ def _look() -> float | None:
     # The stubs do not know it as a context manager.
     with bpy.context.temp_override(window=window):  # pyright: ignore[reportGeneralTypeIssues]
         bpy.ops.hologram.job_ended("INVOKE_DEFAULT")
-    return None
+    # Blender may end that operator before it has told; then another one does.
+    return _EVERY_S
 
 
 def _draw_anew() -> None:

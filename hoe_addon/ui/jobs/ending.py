@@ -49,7 +49,7 @@ def finish(operator: bpy.types.Operator, context: bpy.types.Context, job: Job) -
 def _take(context: bpy.types.Context, job: Job, result: dict[str, Any]) -> None:
     """Bring the open file up to date with what came of a job."""
     if job.kind == JobKind.BAKE:
-        material = bpy.data.materials.get(result["material"])
+        material = bpy.data.materials.get((result["material"], None))
         if material is not None and material.hologram.enabled:
             refresh(material, make=False)
         return

@@ -13,6 +13,9 @@ PICTURE, SHEET = "Hologram Render", "Hologram Eyebox"
 
 _NOWHERE = "NONE"
 
+_MARK = "hologram_picture"
+"""Custom property of an image that holds the last picture of a kind; the user may rename it."""
+
 
 def load_picture(path: Path, name: str) -> bpy.types.Image:
     """Load a picture, in place of the one of that name that was loaded before.
@@ -25,11 +28,12 @@ def load_picture(path: Path, name: str) -> bpy.types.Image:
         The image; it is shown with the exposure and the view transform of the scene where it is
         scene-linear.
     """
-    image = bpy.data.images.get((name, None))
-    if image is None or image.source != "FILE":
+    ours = (each for each in bpy.data.images if each.get(_MARK) == name and not each.library)
+    image = next(ours, None)
+    if image is None:
         image = bpy.data.images.load(str(path))
-        image.name = name
-    image.filepath = _written(path)
+        image.name, image[_MARK] = name, name
+    image.source, image.filepath = "FILE", _written(path)
     image.reload()
     linear = path.suffix == ".exr"
     image.colorspace_settings.name = "Linear Rec.709" if linear else "sRGB"
@@ -63,7 +67,7 @@ def _editors(context: bpy.types.Context) -> Iterator[bpy.types.SpaceImageEditor]
 
 
 def _is_free(image: bpy.types.Image | None) -> bool:
-    return image is None or image.type == "RENDER_RESULT" or image.name in (PICTURE, SHEET)
+    return image is None or image.type == "RENDER_RESULT" or _MARK in image
 
 
 def _new_window(context: bpy.types.Context) -> bpy.types.SpaceImageEditor | None:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where results go: beside the file, each in a folder with a number of its own."""
 
+import os
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
@@ -11,7 +12,8 @@ import bpy
 from ...files import OutputError, writable_folder
 
 _FOLDER = "renders"
-_UNSAVED = "hologram_renders"
+_UNSAVED = "hologram_renders" + (f"_{os.getuid()}" if hasattr(os, "getuid") else "")
+"""Where several users share the folder for temporary files, each has one of their own in it."""
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,11 @@ from typing import Any
 
 import bpy
 
+from ...blender.add.elements import has_eye
 from ...blender.document.held import document_of, has_device
 from ...blender.job_files import JobKind
-from ...core.errors import HoeError
 from ..facts.device import plan_digest
+from ..telling import tells
 from .current import begin, running, wait
 from .ending import finish
 from .job import Job
@@ -54,11 +55,10 @@ class JobOperator:
         """
         raise AssertionError("each kind of job says so")
 
+    @tells
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Start it; go on with the window where a click has asked for it, else wait for its end."""
-        job = self._started(context)
-        if job is None:
-            return {"CANCELLED"}
+        job = self.start(context)
         if self.options.is_invoke and not bpy.app.background:
             begin(job)
             return {"FINISHED"}
@@ -69,13 +69,6 @@ class JobOperator:
             raise
         return finish(self, context, job)
 
-    def _started(self, context: bpy.types.Context) -> Job | None:
-        try:
-            return self.start(context)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return None
-
 
 class DeviceJob(JobOperator):
     """Starts a job on the device of a scene, with results in a folder."""
@@ -84,9 +77,12 @@ class DeviceJob(JobOperator):
 
     @classmethod
     def applies(cls, context: bpy.types.Context) -> bool:
-        """Whether the scene holds a device."""
+        """Whether the scene holds a device, and an eye that looks at it."""
         if not has_device(context.scene):
             cls.poll_message_set("This scene holds no device; add one with Add > Hologram")
+            return False
+        if not has_eye(context.scene):
+            cls.poll_message_set("This scene has no eye; add one with Add > Hologram > Eye")
             return False
         return True
 

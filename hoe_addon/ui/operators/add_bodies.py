@@ -8,8 +8,8 @@ from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty
 from ...blender.add.bodies import add_glass, add_ideal_lens, add_slab, make_glass
 from ...blender.ids import catalogue_items
 from ...blender.registration import class_registrars
-from ...core.errors import HoeError
 from ..ids import Op
+from ..telling import tells
 from .add_placing import MM, PlacedElement, report_added
 
 
@@ -113,6 +113,7 @@ class HOE_OT_add_glass(_Clear, PlacedElement, bpy.types.Operator):
         shape = self.shape.lower()
         return add_glass(scene, shape, self.length_mm, self.medium, matrix, collection)
 
+    @tells
     def execute(self, context):
         if self.shape != "SELECTED":
             return super().execute(context)
@@ -120,11 +121,7 @@ class HOE_OT_add_glass(_Clear, PlacedElement, bpy.types.Operator):
         if not items:
             self.report({"ERROR"}, "No mesh object is selected; select what is to be of glass")
             return {"CANCELLED"}
-        try:
-            settings = make_glass(context.scene, items, self.medium)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        settings = make_glass(context.scene, items, self.medium)
         report_added(self, f"{self.medium} on {len(items)} objects", settings)
         return {"FINISHED"}
 

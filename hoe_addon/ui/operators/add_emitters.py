@@ -12,12 +12,13 @@ from ...blender.registration import class_registrars
 from ...model.scene_spectra import IlluminantSpec, LedSpec, LineSpec, SpectrumSpec
 from ..ids import Op
 from .add_placing import MM, PlacedElement
+from .redo_box import RedoBox
 
 _LED_NM, _LASER_NM = 25.0, 1.0
 """Widths at half maximum."""
 
 
-class HOE_OT_add_display(PlacedElement, bpy.types.Operator):
+class HOE_OT_add_display(RedoBox, PlacedElement, bpy.types.Operator):
     """Add a display."""
 
     bl_idname = Op.ADD_DISPLAY
@@ -51,7 +52,7 @@ class HOE_OT_add_display(PlacedElement, bpy.types.Operator):
         return add_display(scene, spec, matrix, collection)
 
 
-class HOE_OT_add_lamp(PlacedElement, bpy.types.Operator):
+class HOE_OT_add_lamp(RedoBox, PlacedElement, bpy.types.Operator):
     """Add a lamp."""
 
     bl_idname = Op.ADD_LAMP
@@ -113,6 +114,10 @@ class HOE_OT_add_lamp(PlacedElement, bpy.types.Operator):
         return add_lamp(
             scene, self.shape, size, self.luminance_cd_m2, self._spectrum(), matrix, collection
         )
+
+    def left_out(self):
+        """Only an LED and a laser have a colour to choose."""
+        return () if self.light in ("LED", "LASER") else ("centre_nm",)
 
     def _spectrum(self) -> SpectrumSpec:
         match self.light:

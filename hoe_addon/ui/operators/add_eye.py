@@ -10,9 +10,10 @@ from ...blender.registration import class_registrars
 from ...model.device_parts import EyeSpec
 from ..ids import Op
 from .add_placing import MM, PlacedElement
+from .redo_box import RedoBox
 
 
-class HOE_OT_add_eye(PlacedElement, bpy.types.Operator):
+class HOE_OT_add_eye(RedoBox, PlacedElement, bpy.types.Operator):
     """Add the eye."""
 
     bl_idname = Op.ADD_EYE
@@ -35,7 +36,7 @@ class HOE_OT_add_eye(PlacedElement, bpy.types.Operator):
         precision=2,
     )
     field_deg: FloatProperty(
-        name="Field of View (degrees)",
+        name="Field (deg)",
         description="Horizontal field of the picture, in degrees",
         default=40.0,
         min=0.01,
@@ -55,6 +56,10 @@ class HOE_OT_add_eye(PlacedElement, bpy.types.Operator):
         default=1000.0,
         **MM,
     )
+
+    def left_out(self):
+        """A distance to focus on counts only where it is not infinity."""
+        return ("focus_mm",) if self.at_infinity else ()
 
     def add(self, scene, matrix, collection):
         """Add it."""

@@ -15,9 +15,9 @@ from ...blender.add.hologram import (
 )
 from ...blender.props.recording import WAVELENGTH_LIMITS
 from ...blender.registration import class_registrars
-from ...core.errors import HoeError
 from ...model.surface import PlaneSurface
 from ..ids import Op
+from ..telling import tells
 from .add_placing import MM, PlacedElement, report_added
 
 
@@ -86,11 +86,13 @@ class HOE_OT_hologram_on_faces(_Recorded, bpy.types.Operator):
             return False
         return True
 
+    @tells
     def execute(self, context):
         item = context.object
         editing = item.mode == "EDIT"
         if editing:
             bpy.ops.object.mode_set(mode="OBJECT")
+        given = self.properties.is_property_set("distance_mm")
         faces = [face.index for face in item.data.polygons if face.select] if editing else None
         try:
             material, settings = hologram_on_faces(
@@ -98,14 +100,13 @@ class HOE_OT_hologram_on_faces(_Recorded, bpy.types.Operator):
                 item,
                 faces,
                 wavelength_nm=self.wavelength_nm,
-                distance_mm=self.distance_mm,
+                distance_mm=self.distance_mm if given else None,
             )
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
         finally:
             if editing:
                 bpy.ops.object.mode_set(mode="EDIT")
+        if not given:
+            self.distance_mm = -material.hologram.recording.object.position_mm[2]
         item.active_material_index = item.material_slots.find(material.name)
         report_added(self, material.name, settings)
         return {"FINISHED"}

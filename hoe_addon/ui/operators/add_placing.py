@@ -10,7 +10,8 @@ from bpy.props import EnumProperty, FloatVectorProperty
 from bpy_extras.object_utils import add_object_align_init
 from mathutils import Matrix
 
-from ...core.errors import HoeError
+from ..telling import tells
+from .add_views import show
 
 MM = {"min": 1e-3, "soft_min": 0.1, "soft_max": 500.0, "step": 100, "precision": 3}
 """Limits of lengths in mm."""
@@ -44,15 +45,13 @@ class PlacedElement:
     def poll(cls, context):
         return may_add(cls, context)
 
+    @tells
     def execute(self, context):
         """Add the element, and select it."""
         scene = context.scene
-        try:
-            item, settings = self.add(scene, placed(self, context), free_collection(context))
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        item, settings = self.add(scene, placed(self, context), free_collection(context))
         select(context, item)
+        show(context, item)
         note = self.note(scene, item)
         report_added(self, item.name, settings, note)
         return {"FINISHED"}
@@ -96,10 +95,11 @@ def placed(operator: bpy.types.Operator, context: bpy.types.Context) -> Matrix:
 
 
 def free_collection(context: bpy.types.Context) -> bpy.types.Collection:
-    """The collection that new objects come into."""
-    active = context.collection
-    if active is None or active.library is not None:
-        return context.scene.collection
+    """The collection that new objects come into; never that of the room, which comes and goes."""
+    active, scene = context.collection, context.scene
+    room = scene.hologram.room.collection
+    if active is None or active.library is not None or active == room:
+        return scene.collection
     return active
 
 
@@ -139,7 +139,7 @@ def report_added(
     """
     words = [f"{name} added", *([note] if note else [])]
     if settings:
-        words.append(f"render settings that holograms need were set: {', '.join(settings)}")
+        words.append(f"settings that holograms need were set: {', '.join(settings)}")
     operator.report({"INFO"}, "; ".join(words))
 
 

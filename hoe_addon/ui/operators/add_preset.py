@@ -8,12 +8,14 @@ import bpy
 from bpy.props import EnumProperty
 
 from ...blender.add.presets import add_device, add_scene
+from ...blender.document.elements import element_objects
+from ...blender.ids import Role
 from ...blender.registration import class_registrars
-from ...core.errors import HoeError
 from ...model.document import preset_titles
 from ..ids import Op
+from ..telling import tells
 from .add_placing import may_add, report_added, select
-from .add_views import look_through_camera
+from .add_views import around, look_through_camera, show
 
 _INITIALS = frozenset(("ar", "hud"))
 
@@ -76,15 +78,12 @@ class HOE_OT_add_preset(bpy.types.Operator):
             return f"{title}. Opens as a new scene; yours stays as it is"
         return f"{title}. Without its room, at its true size, the eye at the 3D cursor"
 
+    @tells
     def execute(self, context):
-        try:
-            if self.place == "SCENE":
-                self._add_scene(context)
-            else:
-                self._add_device(context)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        if self.place == "SCENE":
+            self._add_scene(context)
+        else:
+            self._add_device(context)
         return {"FINISHED"}
 
     def _add_scene(self, context: bpy.types.Context) -> None:
@@ -93,16 +92,31 @@ class HOE_OT_add_preset(bpy.types.Operator):
         if context.window is not None:
             context.window.scene = scene
             look_through_camera(context.window)
+            select(context, _main_part(scene))
         self.report({"INFO"}, f"{scene.name}: opened as a new scene; {before} is as it was")
 
     def _add_device(self, context: bpy.types.Context) -> None:
         scene = context.scene
         added = add_device(scene, self.preset, scene.cursor.location)
         select(context, added.root)
-        camera = "its eye is the camera now"
+        show(context, added.root)
+        notes = ["its eye is the camera now"]
         if added.kept_camera is not None:
-            camera = f"the camera is still {added.kept_camera.name}, its eye is {added.eye.name}"
-        report_added(self, self.preset, added.settings, camera)
+            kept = added.kept_camera.name
+            notes = [f"the camera is still {kept}, its eye is {added.eye.name}"]
+        bodies = around(scene, added.eye)
+        if bodies:
+            notes.append(f"the eye stands inside {', '.join(bodies)}: move one of them")
+        report_added(self, self.preset, added.settings, "; ".join(notes))
+
+
+def _main_part(scene: bpy.types.Scene) -> bpy.types.Object:
+    """What a device is about: its first hologram, or its plate or lens that carries some."""
+    held = scene.hologram
+    roles = (Role.HOLOGRAM, Role.LENS)
+    found = [item for item in element_objects(scene) if item.hologram.role in roles]
+    found.sort(key=lambda each: roles.index(Role(each.hologram.role)))
+    return next(iter(found), held.guide.plate or held.root)
 
 
 register, unregister = class_registrars((HOE_OT_add_preset,))

@@ -1,18 +1,19 @@
 # SPDX-FileCopyrightText: hoe_addon contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The map or the table that the active hologram needs, made beside the window."""
+"""The map or the table that the hologram shown needs, made beside the window."""
 
 import bpy
 
 from ...blender.job_files import JobKind
 from ...blender.registration import class_registrars
+from ..context import shown_hologram, why_not_editable
 from ..ids import Op
 from ..jobs.launch import launch
 from ..jobs.starting import JobOperator
 
 
 class HOE_OT_bake_table(JobOperator, bpy.types.Operator):
-    """Make the table or the map of the active hologram."""
+    """Make the table or the map of the hologram shown."""
 
     bl_idname = Op.BAKE_TABLE
     bl_label = "Bake"
@@ -26,16 +27,13 @@ class HOE_OT_bake_table(JobOperator, bpy.types.Operator):
 
     @classmethod
     def applies(cls, context):
-        active = context.active_object
-        material = active.active_material if active is not None else None
-        if material is None or not material.hologram.enabled:
-            cls.poll_message_set("Select an object whose active material is a hologram")
-            return False
-        return True
+        words = why_not_editable(context)
+        if words:
+            cls.poll_message_set(words)
+        return not words
 
     def start(self, context):
-        material = context.active_object.active_material
-        settings = {"material": material.name}
+        settings = {"material": shown_hologram(context).name}
         return launch(self.kind, self.job_label, context.scene, settings=settings)
 
 

@@ -10,8 +10,8 @@ from ...blender.document.patches import Purpose, add_patch, remove_patch
 from ...blender.document.size import set_size
 from ...blender.ids import DeviceKind
 from ...blender.registration import class_registrars
-from ...core.errors import HoeError
 from ..ids import Op
+from ..telling import tells
 
 
 class _OfLightGuide:
@@ -43,12 +43,9 @@ class HOE_OT_add_patch(_OfLightGuide, bpy.types.Operator):
         default=Purpose.OUT,
     )
 
+    @tells
     def execute(self, context):
-        try:
-            patch = add_patch(context.scene, self.purpose)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        patch = add_patch(context.scene, self.purpose)
         self.report({"INFO"}, f"{patch.name}: added; its efficiency is in the Efficiency panel")
         return {"FINISHED"}
 
@@ -61,13 +58,10 @@ class HOE_OT_remove_patch(_OfLightGuide, bpy.types.Operator):
     bl_description = "Take the hologram that is chosen in the list off the plate"
     bl_options = {"REGISTER", "UNDO"}
 
+    @tells
     def execute(self, context):
         held = context.scene.hologram
-        try:
-            name = remove_patch(context.scene, held.active_patch)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        name = remove_patch(context.scene, held.active_patch)
         self.report({"INFO"}, f"{name}: removed")
         return {"FINISHED"}
 
@@ -90,12 +84,9 @@ class HOE_OT_true_size(bpy.types.Operator):
             return False
         return True
 
+    @tells
     def execute(self, context):
-        try:
-            set_size(context.scene)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        set_size(context.scene)
         return {"FINISHED"}
 
 
@@ -114,12 +105,9 @@ class HOE_OT_look_through_eye(bpy.types.Operator):
             return False
         return True
 
+    @tells
     def execute(self, context):
-        try:
-            look_through_eye(context.scene, _view(context))
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        look_through_eye(context.scene, _view(context))
         return {"FINISHED"}
 
 

@@ -2,57 +2,41 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whole devices from and to JSON documents."""
 
-from pathlib import Path
-
 import bpy
-from bpy.props import StringProperty
-from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from ...blender.add.presets import add_scene
 from ...blender.document.held import document_of, has_device
 from ...blender.registration import class_registrars
-from ...core.errors import HoeError
 from ...files import write_text
 from ...model.document import dump
 from ..ids import Op
+from ..telling import tells
+from .json_files import JsonExport, JsonImport
 
-_JSON = "*.json"
 
-
-class HOE_OT_import_device(bpy.types.Operator, ImportHelper):
+class HOE_OT_import_device(JsonImport, bpy.types.Operator):
     """Open a device from a JSON document."""
 
     bl_idname = Op.IMPORT_DEVICE
     bl_label = "Import Device"
     bl_description = "Open a device from a JSON document, as a further scene of this file"
-    bl_options = {"REGISTER", "UNDO"}
 
-    filename_ext = ".json"
-    filter_glob: StringProperty(default=_JSON, options={"HIDDEN"})
-
+    @tells
     def execute(self, context):
-        path = Path(self.filepath)
-        try:
-            scene = add_scene(path)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        scene = add_scene(self.path)
         if context.window is not None:
             context.window.scene = scene
-        self.report({"INFO"}, f"{path.name}: {scene.hologram.title}, in the scene {scene.name}")
+        name, title = self.path.name, scene.hologram.title
+        self.report({"INFO"}, f"{name}: {title}, in the scene {scene.name}")
         return {"FINISHED"}
 
 
-class HOE_OT_export_device(bpy.types.Operator, ExportHelper):
+class HOE_OT_export_device(JsonExport, bpy.types.Operator):
     """Write the device of a scene as a JSON document."""
 
     bl_idname = Op.EXPORT_DEVICE
     bl_label = "Export Device"
     bl_description = "Write the device of this scene as a JSON document; lengths are in mm"
-    bl_options = {"REGISTER"}
-
-    filename_ext = ".json"
-    filter_glob: StringProperty(default=_JSON, options={"HIDDEN"})
 
     @classmethod
     def poll(cls, context):
@@ -61,19 +45,13 @@ class HOE_OT_export_device(bpy.types.Operator, ExportHelper):
             return False
         return True
 
-    def invoke(self, context, event):
-        """Suggest the device's own name."""
-        if not self.filepath:
-            self.filepath = f"{context.scene.hologram.short_name or 'device'}.json"
-        return super().invoke(context, event)
+    def suggested(self, context):
+        return context.scene.hologram.short_name or "device"
 
+    @tells
     def execute(self, context):
-        try:
-            write_text(Path(self.filepath), (dump(document_of(context.scene)),))
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, f"{Path(self.filepath).name}: written")
+        write_text(self.path, (dump(document_of(context.scene)),))
+        self.report({"INFO"}, f"{self.path.name}: written")
         return {"FINISHED"}
 
 

@@ -13,6 +13,7 @@ from ..facts import plans
 from ..facts.cache import redraw
 from ..facts.effect_words import LABELS, Effect
 from ..ids import Op
+from ..telling import tells
 
 
 class _OfDevice:
@@ -54,12 +55,9 @@ class HOE_OT_plan(_OfDevice, bpy.types.Operator):
     )
     bl_options = {"REGISTER"}
 
+    @tells
     def execute(self, context):
-        try:
-            _plan_beside(context.scene)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        _plan_beside(context.scene)
         redraw()
         return {"FINISHED"}
 
@@ -91,16 +89,13 @@ class HOE_OT_override(_OfDevice, bpy.types.Operator):
         change = "simulate it all the same" if properties.on else "leave it out all the same"
         return f"{words}.\nThe plan has decided; click to {change}"
 
+    @tells
     def execute(self, context):
         scene = context.scene
-        try:
-            if chosen_effects.is_chosen(scene, self.effect, self.hologram):
-                chosen_effects.leave_to_plan(scene, self.effect, self.hologram)
-            else:
-                chosen_effects.choose(scene, self.effect, self.hologram, on=self.on)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        if chosen_effects.is_chosen(scene, self.effect, self.hologram):
+            chosen_effects.leave_to_plan(scene, self.effect, self.hologram)
+        else:
+            chosen_effects.choose(scene, self.effect, self.hologram, on=self.on)
         _plan_again(self, scene)
         return {"FINISHED"}
 

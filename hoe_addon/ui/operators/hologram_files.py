@@ -2,31 +2,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Holograms from and to JSON documents."""
 
-from pathlib import Path
-
 import bpy
-from bpy.props import StringProperty
-from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from ...blender.document.hologram_files import export_hologram, import_hologram
 from ...blender.registration import class_registrars
-from ...core.errors import HoeError
+from ..context import shown_hologram, shown_material
 from ..ids import Op
-from ..panels.base import shown_hologram, shown_material
+from ..telling import tells
+from .json_files import JsonExport, JsonImport
 
-_JSON = "*.json"
 
-
-class HOE_OT_import_hologram(bpy.types.Operator, ImportHelper):
+class HOE_OT_import_hologram(JsonImport, bpy.types.Operator):
     """Make the active material the hologram of a JSON document."""
 
     bl_idname = Op.IMPORT_HOLOGRAM
     bl_label = "Import Hologram"
     bl_description = "Make the active material the hologram of a JSON document"
-    bl_options = {"REGISTER", "UNDO"}
-
-    filename_ext = ".json"
-    filter_glob: StringProperty(default=_JSON, options={"HIDDEN"})
 
     @classmethod
     def poll(cls, context):
@@ -35,30 +26,22 @@ class HOE_OT_import_hologram(bpy.types.Operator, ImportHelper):
             return False
         return True
 
+    @tells
     def execute(self, context):
-        path = Path(self.filepath)
-        try:
-            problem = import_hologram(shown_material(context), path)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        problem = import_hologram(shown_material(context), self.path)
         if problem:
-            self.report({"WARNING"}, f"{path.name}: read, but {problem}")
+            self.report({"WARNING"}, f"{self.path.name}: read, but {problem}")
         else:
-            self.report({"INFO"}, f"{path.name}: read")
+            self.report({"INFO"}, f"{self.path.name}: read")
         return {"FINISHED"}
 
 
-class HOE_OT_export_hologram(bpy.types.Operator, ExportHelper):
+class HOE_OT_export_hologram(JsonExport, bpy.types.Operator):
     """Write the hologram of the active material as a JSON document."""
 
     bl_idname = Op.EXPORT_HOLOGRAM
     bl_label = "Export Hologram"
     bl_description = "Write this hologram as a JSON document; lengths are in mm"
-    bl_options = {"REGISTER"}
-
-    filename_ext = ".json"
-    filter_glob: StringProperty(default=_JSON, options={"HIDDEN"})
 
     @classmethod
     def poll(cls, context):
@@ -67,19 +50,13 @@ class HOE_OT_export_hologram(bpy.types.Operator, ExportHelper):
             return False
         return True
 
-    def invoke(self, context, event):
-        """Suggest the material's own name."""
-        if not self.filepath:
-            self.filepath = bpy.path.clean_name(shown_hologram(context).name) + ".json"
-        return super().invoke(context, event)
+    def suggested(self, context):
+        return shown_hologram(context).name
 
+    @tells
     def execute(self, context):
-        try:
-            export_hologram(shown_hologram(context), Path(self.filepath))
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, f"{Path(self.filepath).name}: written")
+        export_hologram(shown_hologram(context), self.path)
+        self.report({"INFO"}, f"{self.path.name}: written")
         return {"FINISHED"}
 
 

@@ -7,9 +7,9 @@ from bpy.props import StringProperty
 
 from ...blender.readiness import mend, troubles
 from ...blender.registration import class_registrars
-from ...core.errors import HoeError
 from ..facts.cache import redraw
 from ..ids import Op
+from ..telling import tells
 
 
 class HOE_OT_mend(bpy.types.Operator):
@@ -31,6 +31,7 @@ class HOE_OT_mend(bpy.types.Operator):
             return False
         return True
 
+    @tells
     def execute(self, context):
         scene = context.scene
         known = [trouble for trouble in troubles(scene) if trouble.mend is not None]
@@ -38,11 +39,7 @@ class HOE_OT_mend(bpy.types.Operator):
         if not asked:
             self.report({"ERROR"}, f"{self.mend}: is no trouble of this scene any more")
             return {"CANCELLED"}
-        try:
-            mend(scene, asked[0])
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        mend(scene, asked[0])
         redraw()
         return {"FINISHED"}
 

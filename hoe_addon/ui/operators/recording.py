@@ -11,14 +11,13 @@ from ...blender.document.source_objects import bind_source, make_source
 from ...blender.props.changes import mark_block
 from ...blender.props.sync import refresh
 from ...blender.registration import class_registrars
-from ...core.errors import HoeError
+from ..context import shown_hologram, why_not_editable
 from ..facts.cache import redraw
 from ..facts.checks import check_now
 from ..facts.material import FACTS
 from ..ids import Op
-from ..panels.base import shown_hologram
+from ..telling import tells
 
-_NO_HOLOGRAM = "Select an object whose active material is a hologram"
 _ROLES = (
     ("object", "Object Wave", "The wave that order +1 gives back", 0),
     ("reference", "Reference Wave", "The wave that reads the hologram out", 1),
@@ -30,14 +29,10 @@ class _OfHologram:
 
     @classmethod
     def poll(cls, context):
-        material = shown_hologram(context)
-        if material is None:
-            cls.poll_message_set(_NO_HOLOGRAM)
-            return False
-        if material.library is not None:
-            cls.poll_message_set("The material is linked from another file; make it local first")
-            return False
-        return True
+        words = why_not_editable(context)
+        if words:
+            cls.poll_message_set(words)
+        return not words
 
 
 class HOE_OT_make_hologram(bpy.types.Operator):
@@ -46,8 +41,8 @@ class HOE_OT_make_hologram(bpy.types.Operator):
     bl_idname = Op.MAKE_HOLOGRAM
     bl_label = "Make Hologram"
     bl_description = (
-        "Make the faces of the active material slot a hologram: at first a lens, recorded with a "
-        "point source 100 mm in front at 532 nm"
+        "Make the faces of the active material slot a hologram: at first a lens, recorded at "
+        "532 nm with a plane wave and one that converges to a point behind"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -65,17 +60,16 @@ class HOE_OT_make_hologram(bpy.types.Operator):
             return False
         return True
 
+    @tells
     def execute(self, context):
         item, slot = context.object, context.object.active_material_index
         several = len(item.material_slots) > 1
         faces = [face.index for face in item.data.polygons if face.material_index == slot]
-        try:
-            material, _ = hologram_on_faces(context.scene, item, faces if several else None)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        material, _ = hologram_on_faces(context.scene, item, faces if several else None)
         item.active_material_index = item.material_slots.find(material.name)
-        self.report({"INFO"}, f"{material.name}: a lens with a focal length of 100 mm at 532 nm")
+        focus = -material.hologram.recording.object.position_mm[2]
+        words = f"a lens with a focal length of {focus:.4g} mm at 532 nm"
+        self.report({"INFO"}, f"{material.name}: {words}")
         return {"FINISHED"}
 
 
@@ -92,17 +86,14 @@ class HOE_OT_source_from_selection(_OfHologram, bpy.types.Operator):
 
     role: EnumProperty(name="Wave", description="Wave that follows the object", items=_ROLES)
 
+    @tells
     def execute(self, context):
         material = shown_hologram(context)
         others = [item for item in context.selected_objects or () if item != context.object]
-        try:
-            if others:
-                bind_source(material, self.role, others[0])
-            else:
-                make_source(context.scene.collection, material, self.role)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        if others:
+            bind_source(material, self.role, others[0])
+        else:
+            make_source(context.scene.collection, material, self.role)
         target = getattr(material.hologram.recording, self.role).target
         self.report({"INFO"}, f"{target.name} is the source of the {self.role} wave")
         return {"FINISHED"}
@@ -111,12 +102,9 @@ class HOE_OT_source_from_selection(_OfHologram, bpy.types.Operator):
 class _OfList(_OfHologram):
     """Common part of operators that add to a list or take from it."""
 
+    @tells
     def execute(self, context):
-        try:
-            order = self.change(shown_hologram(context))
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        order = self.change(shown_hologram(context))
         name = f"{order:+d}" if order else "0"
         self.report({"INFO"}, f"Order {name} {self.done}")
         return {"FINISHED"}
@@ -188,14 +176,11 @@ class HOE_OT_refresh(_OfHologram, bpy.types.Operator):
     bl_description = "Make the shader from the properties anew, such as after a file was mended"
     bl_options = {"REGISTER", "UNDO"}
 
+    @tells
     def execute(self, context):
         material = shown_hologram(context)
         mark_block(material)
-        try:
-            refresh(material, make=bpy.app.background)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        refresh(material, make=bpy.app.background)
         self.report({"INFO"}, f"{material.name}: the shader agrees with the properties")
         return {"FINISHED"}
 
@@ -210,14 +195,11 @@ class HOE_OT_check(_OfHologram, bpy.types.Operator):
     )
     bl_options = {"REGISTER"}
 
+    @tells
     def execute(self, context):
         material = shown_hologram(context)
-        try:
-            found = check_now(material)
-            FACTS.update_now(material)
-        except HoeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        found = check_now(material)
+        FACTS.update_now(material)
         redraw()
         for warning in found.warnings:
             self.report({"WARNING"}, warning)

@@ -34,6 +34,10 @@ class Kind(StrEnum):
     EYEBOX = "eyebox"
 
 
+OF_EYE = frozenset({Kind.CHIEF_RAYS, Kind.PUPIL, Kind.EYEBOX})
+"""What has no place where there is no eye."""
+
+
 @dataclass(frozen=True)
 class Density:
     """How much is drawn.

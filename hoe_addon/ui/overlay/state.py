@@ -13,7 +13,9 @@ import bpy
 import msgspec
 import numpy as np
 
-from ...blender.document.held import document_of, element_objects, has_device
+from ...blender.add.elements import has_eye
+from ...blender.document.elements import element_objects
+from ...blender.document.held import document_of, has_device
 from ...blender.props.sync import read_frame, read_spec
 from ...blender.props.values import number
 from ...core.arrays import FloatArray
@@ -22,7 +24,7 @@ from ...model.chief_rays import Orders
 from ...model.device import DeviceSpec
 from ...model.hologram import HologramSpec
 from . import document
-from .document import Density, Drawing, Kind, drawing_of, sources_of, without_render
+from .document import OF_EYE, Density, Drawing, Kind, drawing_of, sources_of, without_render
 from .eye import Label
 from .lines import Lines
 
@@ -91,11 +93,12 @@ def forget_all() -> None:
 
 
 def kinds_of(scene: bpy.types.Scene) -> frozenset[Kind]:
-    """Which kinds are switched on in a scene."""
+    """Which kinds are switched on in a scene; without an eye nothing that begins there."""
     switches = scene.hologram.overlay
     if not switches.show:
         return frozenset()
-    return frozenset(kind for kind in Kind if getattr(switches, kind.value))
+    kinds = frozenset(kind for kind in Kind if getattr(switches, kind.value))
+    return kinds if has_eye(scene) else kinds - OF_EYE
 
 
 def refresh(scene: bpy.types.Scene) -> bool:
@@ -170,7 +173,7 @@ def _lone_holograms(scene: bpy.types.Scene) -> _Lone:
             continue
         for slot in item.material_slots:
             if slot.material is not None and slot.material.hologram.enabled:
-                own = read_spec(slot.material)
+                own = read_spec(slot.material, item)
                 if own.recording is not None and len(found) < _MOST_LONE:
                     found.append((own, _place(item, slot.material)))
     return found

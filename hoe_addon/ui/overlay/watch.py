@@ -10,6 +10,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ...blender.props import changes
+from ..sparing import Sparing
 from . import failure, state
 
 _EVENTS = ("depsgraph_update_post", "frame_change_post", "load_post", "undo_post", "redo_post")
@@ -23,13 +24,13 @@ class _Pending:
 
 def schedule() -> None:
     """Bring what is drawn up to date soon."""
-    if not _Pending.is_busy and not bpy.app.background and not is_waiting():
-        bpy.app.timers.register(_run, first_interval=0.0)
+    if not _Pending.is_busy:
+        _soon.ask()
 
 
 def is_waiting() -> bool:
     """Whether that is going to happen."""
-    return bpy.app.timers.is_registered(_run)
+    return _soon.is_waiting()
 
 
 def run() -> bool:
@@ -57,13 +58,12 @@ def redraw() -> None:
                 area.tag_redraw()
 
 
-def _run() -> None:
-    failure.guarded(_run_and_redraw)
-
-
 def _run_and_redraw() -> None:
     if run():
         redraw()
+
+
+_soon = Sparing(lambda: failure.guarded(_run_and_redraw))
 
 
 @persistent
@@ -89,6 +89,5 @@ def unregister() -> None:
     changes.stop(_noted)
     for event in _EVENTS:
         getattr(bpy.app.handlers, event).remove(_changed)
-    if is_waiting():
-        bpy.app.timers.unregister(_run)
+    _soon.stop()
     state.forget_all()

@@ -7,9 +7,9 @@ from typing import ClassVar
 import bpy
 
 from ...blender.readiness import troubles
-from ...blender.registration import class_registrars
 from ..ids import Op
-from .base import MATERIAL, RENDER, SCENE, SIDEBAR, Body, panel_classes, wrapped
+from ..wording import in_plain_words
+from .base import MATERIAL, RENDER, SCENE, SIDEBAR, Body, panel_registrars, wrapped
 
 
 class Banner(Body):
@@ -29,11 +29,15 @@ class Banner(Body):
         box = self.layout.box()
         words = box.column()
         words.alert = True
-        wrapped(words, context, first.words, "ERROR")
+        wrapped(words, context, _plain(first.words), "ERROR")
         if first.mend is not None:
             box.operator(Op.MEND, text=first.button, icon="CHECKMARK").mend = first.mend
 
 
-register, unregister = class_registrars(
-    panel_classes((SIDEBAR, MATERIAL, SCENE, RENDER), (Banner,))
-)
+def _plain(words: str) -> str:
+    """Trouble of a hologram begins with its name, and the problem follows."""
+    name, colon, told = words.partition(": ")
+    return f"{name}{colon}{in_plain_words(told)}"
+
+
+register, unregister = panel_registrars((SIDEBAR, *MATERIAL, SCENE, RENDER), (Banner,))

@@ -9,12 +9,15 @@ from typing import Any, ClassVar
 
 import bpy
 
+from ...blender.registration import BlenderClass, Registrar, class_registrars
 from ..ids import TAB
 
 _PIXELS_PER_LETTER = 6.5
 """Mean width of a letter at a scale of 1; words are wrapped by it."""
 _MARGIN_PIXELS = 60.0
 _FEWEST_LETTERS = 24
+_UNIT_WIDTH, _LETTER_WIDTH = 0.7, 0.35
+"""Of what stands behind a number, in widths of a button with an icon."""
 
 
 @dataclass(frozen=True)
@@ -24,24 +27,27 @@ class Place:
     Attributes:
         suffix: End of the names of its classes.
         attributes: What Blender calls the place.
-        shift: Added to the order of panels that are no part of others.
+        under: Panel of Blender that they stand in, where it is there.
     """
 
     suffix: str
     attributes: dict[str, Any] = field(hash=False)
-    shift: int = 0
+    under: str = ""
 
 
 SIDEBAR = Place("sidebar", {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": TAB})
 
 
-def _properties(tab: str, shift: int = 0) -> Place:
+def _properties(tab: str, suffix: str = "", under: str = "") -> Place:
     space = {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": tab}
-    return Place(tab, space, shift)
+    return Place(suffix or tab, space, under)
 
 
-# Right below what makes the surface; Blender has 10 and more for what follows, and nothing below 0.
-MATERIAL = _properties("material", -10)
+# Right below the name of the material: below Surface, dozens of sockets would come before them.
+MATERIAL = (
+    _properties("material", under="CYCLES_PT_context_material"),
+    _properties("material", "material_eevee", under="EEVEE_MATERIAL_PT_context_material"),
+)
 SCENE, RENDER = _properties("scene"), _properties("render")
 
 
@@ -81,19 +87,30 @@ def idname(body: type[Body], place: Place) -> str:
     return f"HOE_PT_{body.name}_{place.suffix}"
 
 
-def panel_classes(
-    places: Iterable[Place], bodies: Sequence[type[Body]]
-) -> tuple[type[bpy.types.Panel], ...]:
-    """Make Blender's classes.
+def panel_registrars(
+    places: Iterable[Place], bodies: Sequence[type[Body]], others: Sequence[BlenderClass] = ()
+) -> tuple[Registrar, Registrar]:
+    """Make the pair of functions that a module with panels has.
 
     Args:
         places: Where the panels stand.
         bodies: What they show; each after its parent.
+        others: Classes that they need.
 
     Returns:
-        One class for each place and body, in an order in which they can be registered.
+        ``register`` and ``unregister``, for one class of each place and body.
     """
-    return tuple(_panel(body, place) for place in places for body in bodies)
+    under = {_panel(body, place): place.under for place in places for body in bodies}
+    register_classes, unregister = class_registrars((*others, *under))
+
+    def register() -> None:
+        for panel, parent in under.items():
+            if parent and not panel.is_part:
+                # Without Cycles its panels are not there; then ours stand by themselves.
+                panel.bl_parent_id = parent if hasattr(bpy.types, parent) else ""
+        register_classes()
+
+    return register, unregister
 
 
 def _panel(body: type[Body], place: Place) -> type[bpy.types.Panel]:
@@ -103,43 +120,13 @@ def _panel(body: type[Body], place: Place) -> type[bpy.types.Panel]:
         "__doc__": body.__doc__,
         "bl_idname": name,
         "bl_order": body.bl_order,
+        "is_part": body.parent is not None,
         **place.attributes,
     }
-    if body.parent is None:
-        attributes["bl_order"] = max(0, body.bl_order + place.shift)
-    else:
+    if body.parent is not None:
         attributes["bl_parent_id"] = idname(body.parent, place)
         attributes["bl_options"] = {"DEFAULT_CLOSED"}
     return type(name, (body, bpy.types.Panel), attributes)
-
-
-def shown_material(context: bpy.types.Context) -> bpy.types.Material | None:
-    """Find the material that a panel is about.
-
-    Args:
-        context: Of the panel or the operator.
-
-    Returns:
-        That of the properties editor, which may be pinned; else the active one of the active
-        object; or None.
-    """
-    material = getattr(context, "material", None)
-    if material is None and context.object is not None:
-        material = context.object.active_material
-    return material
-
-
-def shown_hologram(context: bpy.types.Context) -> bpy.types.Material | None:
-    """Find the material that a panel is about, if it is a hologram.
-
-    Args:
-        context: Of the panel or the operator.
-
-    Returns:
-        The material, or None.
-    """
-    material = shown_material(context)
-    return material if material is not None and material.hologram.enabled else None
 
 
 def split_layout(layout: bpy.types.UILayout) -> bpy.types.UILayout:
@@ -156,26 +143,37 @@ def split_layout(layout: bpy.types.UILayout) -> bpy.types.UILayout:
     return layout
 
 
-_UNITS = {"_nm": "nm", "_um": "\N{MICRO SIGN}m", "_mm": "mm", "_deg": "deg"}
+_UNITS = {
+    "_per_mm": "/mm",
+    "_cd_m2": "cd/m²",
+    "_nm": "nm",
+    "_um": "\N{MICRO SIGN}m",
+    "_mm": "mm",
+    "_deg": "deg",
+}
+"""By the end of a name; longer ends come first."""
 
 
 def with_unit(
     layout: bpy.types.UILayout, owner: bpy.types.bpy_struct, field: str, label: str = ""
 ) -> None:
-    """Lay out a number with its unit in the label, as the end of its name tells it.
+    """Lay out a number or a vector with its unit behind it, as the end of its name tells it.
+
+    Blender's own units would scale values by the scene; these are mm in scenes of any unit.
 
     Args:
         layout: Where.
         owner: Group that has the property.
-        field: The property; of a vector the label is left as it is, since it is long already.
+        field: The property.
         label: Label in the place of its own.
     """
-    prop = owner.bl_rna.properties[field]
-    unit = _UNITS.get(f"_{field.rpartition('_')[2]}")
-    text = label or prop.name
-    if unit is not None and not getattr(prop, "is_array", False):
-        text = f"{text} ({unit})"
-    layout.prop(owner, field, text=text)
+    row = layout.row(align=True)
+    row.prop(owner, field, text=label or owner.bl_rna.properties[field].name)
+    unit = next((unit for end, unit in _UNITS.items() if field.endswith(end)), "")
+    if unit:
+        cell = row.row()
+        cell.ui_units_x = _UNIT_WIDTH + _LETTER_WIDTH * len(unit)
+        cell.label(text=unit)
 
 
 def wrapped(

@@ -7,13 +7,13 @@ from typing import Any
 
 import bpy
 
+from ...blender.add.elements import has_eye
 from ...blender.document.held import has_device
-from ...blender.ids import DeviceKind, PictureKind, Role
-from ...blender.registration import class_registrars
+from ...blender.ids import DeviceKind, PictureKind, Primaries, Role
 from ..facts.device import Line
 from ..facts.scenes import DEVICE_FACTS
 from ..ids import Menu, Op
-from .base import SCENE, SIDEBAR, Body, panel_classes, split_layout, wrapped
+from .base import SCENE, SIDEBAR, Body, panel_registrars, split_layout, with_unit, wrapped
 from .medium import draw_medium
 from .tables import numbers, problem
 
@@ -32,7 +32,7 @@ class Device(Body):
             layout.menu(Menu.ADD, text="Add", icon="ADD")
             layout.operator(Op.IMPORT_DEVICE, icon="IMPORT")
             return
-        layout.prop(scene.hologram, "title", text="")
+        layout.prop(scene.hologram, "title", text="", placeholder="Title")
         facts = DEVICE_FACTS.shown(scene)
         if facts is not None and facts.problem:
             problem(layout, context, facts.problem)
@@ -42,7 +42,12 @@ class Device(Body):
             row.label(text=f"Stands here {facts.enlargement:.3g} times its true size")
             row.operator(Op.TRUE_SIZE, text="True Size")
         row = layout.row(align=True)
-        row.operator(Op.LOOK_THROUGH_EYE, text="Look through the Eye", icon="HIDE_OFF")
+        if has_eye(scene):
+            row.operator(Op.LOOK_THROUGH_EYE, text="Look through the Eye", icon="HIDE_OFF")
+        else:
+            wrapped(layout, context, "This scene has no eye yet.", "INFO")
+            row = layout.row(align=True)
+            row.operator(Op.ADD_EYE, text="Add Eye", icon="ADD")
         row.operator(Op.EXPORT_DEVICE, text="", icon="EXPORT")
 
 
@@ -58,6 +63,8 @@ def awaited(scene: bpy.types.Scene) -> tuple[Line, ...]:
     Returns:
         As many empty lines as the facts have.
     """
+    if not has_eye(scene):
+        return ()
     return (Line("", ""),) * (7 if scene.hologram.kind == DeviceKind.LIGHT_GUIDE else 4)
 
 
@@ -104,9 +111,8 @@ class Lens(_OfGuide):
         layout, held = split_layout(self.layout), context.scene.hologram
         layout.prop_search(held.engine, "patch", held, "patches", icon="MOD_UVPROJECT")
         column = layout.column(align=True)
-        column.prop(held.engine, "focal_length_mm")
-        column.prop(held.engine, "diameter_mm")
-        column.prop(held.engine, "distance_mm")
+        for field in ("focal_length_mm", "diameter_mm", "distance_mm"):
+            with_unit(column, held.engine, field)
 
 
 class Guide(_OfGuide):
@@ -120,10 +126,8 @@ class Guide(_OfGuide):
         layout, guide = split_layout(self.layout), context.scene.hologram.guide
         draw_medium(layout, guide.medium, "Medium")
         column = layout.column(align=True)
-        column.prop(guide, "thickness_mm")
-        column.prop(guide, "size_mm")
-        column.prop(guide, "center_mm")
-        layout.prop(guide, "relief_mm")
+        for field in ("thickness_mm", "size_mm", "center_mm", "relief_mm"):
+            with_unit(column, guide, field)
         draw_medium(layout, guide.outside, "Around It")
 
 
@@ -145,8 +149,8 @@ class Holograms(_OfGuide):
             patch = held.patches[held.active_patch]
             column = layout.column()
             column.prop(patch, "face")
-            column.prop(patch, "center_mm")
-            column.prop(patch, "size_mm")
+            with_unit(column, patch, "center_mm")
+            with_unit(column, patch, "size_mm")
 
 
 class Element(Body):
@@ -170,38 +174,33 @@ class Element(Body):
             case Role.DISPLAY:
                 draw_display(layout, element.display)
             case Role.LAMP:
-                layout.prop(element, "size_mm")
-                layout.prop(element, "luminance_cd_m2", text="In cd/m²")
+                with_unit(layout, element, "size_mm")
+                with_unit(layout, element, "luminance_cd_m2")
             case Role.CARD:
                 _draw_picture(layout, element)
-                layout.prop(element, "size_mm")
+                with_unit(layout, element, "size_mm")
 
 
-class _OfDevice(Body):
-    """Common part of what all devices have."""
-
-    parent = Device
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_device(context.scene)
-
-
-class Eye(_OfDevice):
+class Eye(Body):
     """The eye that looks."""
 
     name = "device_eye"
     bl_label = "Eye"
+    parent = Device
     draw_header = _marked("eye.")
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return has_device(context.scene) and has_eye(context.scene)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, eye = split_layout(self.layout), context.scene.hologram.eye
-        layout.prop(eye, "camera")
-        layout.prop(eye, "pupil_diameter_mm")
-        layout.prop(eye, "field_deg", text="Field (deg)")
+        layout.prop(eye, "camera", text="Camera")
+        with_unit(layout, eye, "pupil_diameter_mm")
+        with_unit(layout, eye, "field_deg")
         layout.prop(eye, "at_infinity")
         if not eye.at_infinity:
-            layout.prop(eye, "focus_mm")
+            with_unit(layout, eye, "focus_mm")
 
 
 class Eyebox(_OfGuide):
@@ -214,20 +213,25 @@ class Eyebox(_OfGuide):
     def draw(self, context: bpy.types.Context) -> None:
         layout, eyebox = split_layout(self.layout), context.scene.hologram.eyebox
         layout.prop(eyebox, "grid")
-        layout.prop(eyebox, "pitch_mm")
+        with_unit(layout, eyebox, "pitch_mm")
 
 
-class Room(_OfDevice):
+class Room(Body):
     """What stands behind and around."""
 
     name = "device_room"
     bl_label = "Room"
+    parent = Device
     draw_header = _marked("room.")
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return has_device(context.scene)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, room = split_layout(self.layout), context.scene.hologram.room
-        layout.prop(room, "kind")
-        layout.prop(room, "luminance_cd_m2", text="White (cd/m²)")
+        layout.prop(room, "kind", text="Place")
+        with_unit(layout, room, "luminance_cd_m2", "White Walls")
 
 
 def draw_display(layout: bpy.types.UILayout, display: bpy.types.PropertyGroup) -> None:
@@ -238,10 +242,12 @@ def draw_display(layout: bpy.types.UILayout, display: bpy.types.PropertyGroup) -
         display: The display.
     """
     _draw_picture(layout, display)
-    layout.prop(display, "size_mm")
-    layout.prop(display, "luminance_cd_m2", text="White (cd/m²)")
+    with_unit(layout, display, "size_mm")
+    with_unit(layout, display, "luminance_cd_m2")
     layout.prop(display, "white", text="White Point")
-    layout.prop(display, "primaries")
+    layout.prop(display, "kind_of_primaries")
+    if display.kind_of_primaries == Primaries.OWN:
+        layout.prop(display, "primaries", text="Own Lines")
 
 
 def _draw_picture(layout: bpy.types.UILayout, owner: bpy.types.PropertyGroup) -> None:
@@ -266,12 +272,8 @@ class HOE_UL_patches(bpy.types.UIList):
         face.label(text="eye side" if item.face == "eye" else "world side")
 
 
-register, unregister = class_registrars(
-    (
-        HOE_UL_patches,
-        *panel_classes(
-            (SIDEBAR, SCENE),
-            (Device, Display, Lens, Guide, Holograms, Element, Eye, Eyebox, Room),
-        ),
-    )
+register, unregister = panel_registrars(
+    (SIDEBAR, SCENE),
+    (Device, Display, Lens, Guide, Holograms, Element, Eye, Eyebox, Room),
+    (HOE_UL_patches,),
 )

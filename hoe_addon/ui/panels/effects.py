@@ -8,12 +8,11 @@ import bpy
 
 from ...blender.document.chosen_effects import is_chosen
 from ...blender.document.held import has_device
-from ...blender.registration import class_registrars
 from ..facts import plans
 from ..facts.effects import WHOLE, EffectLine, PlanFacts
 from ..facts.scenes import DEVICE_FACTS
 from ..ids import Op
-from .base import SCENE, SIDEBAR, Body, panel_classes, wrapped
+from .base import SCENE, SIDEBAR, Body, panel_registrars, wrapped
 from .tables import problem
 
 _MOST_NAMES = 3
@@ -100,4 +99,4 @@ def _draw_line(layout: bpy.types.UILayout, context: bpy.types.Context, line: Eff
         wrapped(reasons, context, sentence, "BLANK1")
 
 
-register, unregister = class_registrars(panel_classes((SIDEBAR, SCENE), (Effects,)))
+register, unregister = panel_registrars((SIDEBAR, SCENE), (Effects,))

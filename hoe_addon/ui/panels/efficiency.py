@@ -8,10 +8,10 @@ from ...blender.ids import EfficiencyModel, PatternKind
 from ...blender.props.detail_media import Given
 from ...blender.props.efficiency_fields import ReliefShape
 from ...blender.props.rcwa_fields import ProfileShape
-from ...blender.registration import class_registrars
+from ..context import shown_hologram
 from ..facts.material import FACTS, MaterialFacts
 from ..ids import Op
-from .base import MATERIAL, SIDEBAR, panel_classes, shown_hologram, split_layout, with_unit, wrapped
+from .base import MATERIAL, SIDEBAR, panel_registrars, split_layout, with_unit, wrapped
 from .hologram import AWAITED, OfHologram
 from .medium import draw_medium
 from .problems import draw_part
@@ -94,7 +94,9 @@ def _draw_shares(layout: bpy.types.UILayout, efficiency: bpy.types.PropertyGroup
     column.use_property_split = False
     for place, entry in enumerate(efficiency.shares):
         row = column.row(align=True)
-        row.prop(entry, "order", text="")
+        number = row.row(align=True)
+        number.ui_units_x = 2.5
+        number.prop(entry, "order", text="")
         row.prop(entry, "side", text="")
         row.prop(entry, "share", text="", slider=True)
         row.operator(Op.REMOVE_SHARE, text="", icon="REMOVE").index = place
@@ -125,7 +127,7 @@ def _draw_profile(
     shape = ProfileShape(efficiency.profile_shape)
     layout.prop(efficiency, "profile_shape")
     if shape in _IN_TEXT:
-        wrapped(layout, context, "Its numbers are in Document Text, or imported.", "INFO")
+        wrapped(layout, context, "Its numbers are in Advanced, or imported.", "INFO")
     column = layout.column()
     for field in _PROFILE_FIELDS.get(shape, ()):
         with_unit(column, efficiency, field)
@@ -177,6 +179,8 @@ def _draw_facts(
     if facts is not None and facts.without_plot:
         wrapped(layout, context, facts.without_plot, "INFO")
     numbers(layout, AWAITED if facts is None else facts.efficiency)
+    if facts is not None and facts.place:
+        wrapped(layout, context, facts.place, "INFO")
 
 
 def _plot_scale(context: bpy.types.Context) -> float:
@@ -187,4 +191,4 @@ def _plot_scale(context: bpy.types.Context) -> float:
     return min(_LARGEST_PLOT, max(_SMALLEST_PLOT, units - 3.0))
 
 
-register, unregister = class_registrars(panel_classes((SIDEBAR, MATERIAL), (Efficiency,)))
+register, unregister = panel_registrars((SIDEBAR, *MATERIAL), (Efficiency,))

@@ -5,23 +5,22 @@
 import bpy
 
 from ...blender.ids import EfficiencyModel, PatternKind, Shape, WaveKind
-from ...blender.registration import class_registrars
+from ..context import shown_hologram, shown_material
 from ..facts.device import Line
 from ..facts.material import FACTS
 from ..ids import Op
+from ..wording import is_question, part_of
 from .base import (
     MATERIAL,
     SIDEBAR,
     Body,
-    panel_classes,
-    shown_hologram,
-    shown_material,
+    panel_registrars,
     split_layout,
     with_unit,
     wrapped,
 )
 from .medium import draw_medium
-from .problems import draw_part, draw_problem, part_of, problem_of
+from .problems import draw_part, draw_problem, problem_of
 from .tables import numbers
 
 _SHAPE_FIELDS = {
@@ -78,12 +77,15 @@ class Hologram(Body):
         part = part_of(words)
         if part:
             label = layout.row()
-            label.alert = True
-            label.label(text=f"Problem below, in {part}", icon="ERROR")
+            label.alert = not is_question(words)
+            kind, icon = ("Problem", "ERROR") if label.alert else ("To be chosen", "INFO")
+            label.label(text=f"{kind} below, in {part}", icon=icon)
         else:
             draw_problem(layout, context, material)
         facts = FACTS.shown(material)
         numbers(layout, AWAITED if facts is None else facts.grating)
+        if facts is not None and facts.place:
+            wrapped(layout, context, facts.place, "INFO")
 
 
 class OfHologram(Body):
@@ -147,7 +149,7 @@ class Document(OfHologram):
     """What has no slider: the texts behind, and where the recording lies in the object."""
 
     name = "hologram_document"
-    bl_label = "Document Text"
+    bl_label = "Advanced"
     bl_order = 5
 
     def draw(self, context):
@@ -175,7 +177,7 @@ def _texts(hologram):
     model = EfficiencyModel(hologram.efficiency.model)
     if model != EfficiencyModel.CONSTANT:
         yield hologram.efficiency, f"{model}_details", model.label
-    yield hologram.efficiency, "common_details", "Haze, Look-up"
+    yield hologram.efficiency, "common_details", "Haze and Table"
 
 
 def draw_mesh(layout: bpy.types.UILayout, surface: bpy.types.PropertyGroup) -> None:
@@ -191,6 +193,6 @@ def draw_mesh(layout: bpy.types.UILayout, surface: bpy.types.PropertyGroup) -> N
         layout.label(text="The mesh is kept in the document", icon="MESH_DATA")
 
 
-register, unregister = class_registrars(
-    panel_classes((SIDEBAR, MATERIAL), (NoHologram, Hologram, Element, Orders, Document))
+register, unregister = panel_registrars(
+    (SIDEBAR, *MATERIAL), (NoHologram, Hologram, Element, Orders, Document)
 )

@@ -9,6 +9,7 @@ from ...blender.ids import DeviceKind
 from ...blender.registration import class_registrars
 from ..ids import TAB
 from ..overlay import failure, state
+from ..wording import in_plain_words
 
 
 class HOE_PT_overlay(bpy.types.Panel):
@@ -39,7 +40,7 @@ class HOE_PT_overlay(bpy.types.Panel):
         if problem:
             row = layout.row()
             row.alert = True
-            row.label(text=problem, icon="ERROR")
+            row.label(text=in_plain_words(problem), icon="ERROR")
         kind = context.scene.hologram.kind
         column = layout.column(heading="Show")
         column.prop(switches, "sources")

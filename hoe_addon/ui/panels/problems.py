@@ -6,18 +6,8 @@ import bpy
 
 from ..facts.material import FACTS
 from ..ids import Op
+from ..wording import part_of
 from .tables import problem
-
-_PARTS = {
-    "surface": "Element",
-    "media": "Element",
-    "frame": "Element",
-    "recording": "Recording",
-    "characteristic": "Recording",
-    "efficiency": "Efficiency",
-    "orders": "Orders",
-}
-"""Panel that a field of the document is in."""
 
 
 def problem_of(material: bpy.types.Material) -> str:
@@ -32,18 +22,6 @@ def problem_of(material: bpy.types.Material) -> str:
     facts = FACTS.shown(material)
     told: str = material.hologram.problem
     return told or (facts.problem if facts is not None else "")
-
-
-def part_of(words: str) -> str:
-    """Find the panel that a problem belongs to.
-
-    Args:
-        words: The problem.
-
-    Returns:
-        Its title, or nothing.
-    """
-    return _PARTS.get(words.split(":")[0].split(".")[0].split("[")[0], "")
 
 
 def is_about(words: str, path: str) -> bool:
@@ -70,15 +48,25 @@ def draw_problem(
     if not words:
         return
     problem(layout, context, words)
-    if material.hologram.needs_bake:
+    role = _lost_source(words)
+    if role:
+        wave = getattr(material.hologram.recording, role)
+        layout.prop(wave, "follows", text="Untick Follow", toggle=True, invert_checkbox=True)
+    elif material.hologram.needs_bake:
         layout.operator(Op.BAKE_TABLE, icon="RENDER_STILL")
     elif material.library is None and material.hologram.problem and not _is_typed(words):
         layout.operator(Op.REFRESH, icon="FILE_REFRESH")
 
 
+def _lost_source(words: str) -> str:
+    """Role of the wave whose source object is wrong, or nothing."""
+    path = words.partition(":")[0].split(".")
+    return path[1] if path[0] == "recording" and path[-1] == "target" else ""
+
+
 def _is_typed(words: str) -> bool:
     """Whether the field that is wrong stands right below, so that trying again is no help."""
-    return ".target" in words.partition(":")[0] or ("file" not in words and bool(part_of(words)))
+    return "file" not in words and bool(part_of(words))
 
 
 def draw_part(

@@ -6,9 +6,9 @@ import bpy
 
 from ...blender.ids import CharacteristicKind, PatternKind, WaveKind
 from ...blender.props.wave_fields import SourceShape
-from ...blender.registration import class_registrars
+from ..context import shown_hologram
 from ..ids import Op
-from .base import MATERIAL, SIDEBAR, panel_classes, shown_hologram, split_layout, with_unit, wrapped
+from .base import MATERIAL, SIDEBAR, panel_registrars, split_layout, with_unit, wrapped
 from .hologram import OfHologram
 from .problems import draw_part, is_about, problem_of
 
@@ -23,9 +23,9 @@ _FUNCTION_FIELDS = {
     CharacteristicKind.SAMPLED: ("file", "grid_size_mm", "unit"),
 }
 _IN_TEXT = {
-    CharacteristicKind.POLYNOMIAL: "Its terms are in Document Text, or imported.",
-    CharacteristicKind.ZERNIKE: "Its coefficients are in Document Text, or imported.",
-    CharacteristicKind.SPLINE: "Its coefficients are in Document Text, or imported.",
+    CharacteristicKind.POLYNOMIAL: "Its terms are in Advanced, or imported.",
+    CharacteristicKind.ZERNIKE: "Its coefficients are in Advanced, or imported.",
+    CharacteristicKind.SPLINE: "Its coefficients are in Advanced, or imported.",
 }
 _SHAPE_FIELDS = {
     SourceShape.DISC: ("source_diameter_mm",),
@@ -78,10 +78,7 @@ class Recording(OfHologram):
 
 def _draw_wavelength(layout: bpy.types.UILayout, recording: bpy.types.PropertyGroup) -> None:
     row = layout.row(align=True)
-    row.prop(recording, "wavelength_nm", text="Wavelength")
-    unit = row.row()
-    unit.ui_units_x = 1.5
-    unit.label(text="nm")
+    with_unit(row, recording, "wavelength_nm", "Wavelength")
     swatch = row.row()
     swatch.ui_units_x = 1.5
     swatch.prop(recording, "colour", text="")
@@ -111,7 +108,7 @@ def _draw_wave(
     draw_part(layout, context, material, path)
     layout.prop(wave, "kind", text="Kind")
     if kind == WaveKind.SYSTEM:
-        wrapped(layout, context, "Its lenses are in Document Text, or imported.", "INFO")
+        wrapped(layout, context, "Its lenses are in Advanced, or imported.", "INFO")
         return
     row = layout.row(align=True, heading="Follow")
     row.alert = is_about(problem_of(material), f"{path}.target")
@@ -131,4 +128,4 @@ def _draw_wave(
             with_unit(column, wave, field)
 
 
-register, unregister = class_registrars(panel_classes((SIDEBAR, MATERIAL), (Recording,)))
+register, unregister = panel_registrars((SIDEBAR, *MATERIAL), (Recording,))

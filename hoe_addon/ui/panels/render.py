@@ -6,10 +6,9 @@ import bpy
 
 from ...blender.document.held import has_device
 from ...blender.ids import Goal
-from ...blender.registration import class_registrars
 from ...model.methods import QUALITY_ERRORS
 from ..ids import Op
-from .base import RENDER, SIDEBAR, Body, panel_classes, split_layout
+from .base import RENDER, SIDEBAR, Body, panel_registrars, split_layout, with_unit
 from .progress import draw_progress
 
 
@@ -79,13 +78,13 @@ class Colours(Body):
     def draw(self, context: bpy.types.Context) -> None:
         layout, scene = split_layout(self.layout), context.scene
         render = scene.hologram.render
-        layout.prop(render, "mode")
+        layout.prop(render, "mode", text="Wavelengths")
         row = layout.row(align=True)
-        row.prop(render, "preview_wavelength_nm", text="Preview (nm)")
+        with_unit(row, render, "preview_wavelength_nm", "Preview")
         swatch = row.row(align=True)
         swatch.ui_units_x = 1.5
         swatch.prop(render, "preview_colour", text="")
-        layout.prop(render, "luminance_per_unit_cd_m2", text="1.0 in cd/m²")
+        with_unit(layout, render, "luminance_per_unit_cd_m2", "Value 1 is")
         layout.prop(scene.view_settings, "exposure")
 
 
@@ -105,4 +104,4 @@ class Paths(Body):
         layout.prop(scene.cycles, "seed")
 
 
-register, unregister = class_registrars(panel_classes((SIDEBAR, RENDER), (Render, Colours, Paths)))
+register, unregister = panel_registrars((SIDEBAR, RENDER), (Render, Colours, Paths))

@@ -6,11 +6,10 @@ import bpy
 
 from ...blender.document.held import has_device
 from ...blender.ids import DeviceKind
-from ...blender.registration import class_registrars
 from ..facts.scenes import DEVICE_FACTS
 from ..facts.study import EyeboxFacts, accuracy_of, eyebox_of
 from ..ids import Op
-from .base import SCENE, SIDEBAR, Body, panel_classes, split_layout, wrapped
+from .base import SCENE, SIDEBAR, Body, panel_registrars, split_layout, with_unit, wrapped
 from .progress import draw_progress
 from .tables import numbers
 
@@ -46,7 +45,7 @@ class EyeboxStudy(Body):
         layout, scene = split_layout(self.layout), context.scene
         column = layout.column(align=True)
         column.prop(scene.hologram.eyebox, "grid")
-        column.prop(scene.hologram.eyebox, "pitch_mm")
+        with_unit(column, scene.hologram.eyebox, "pitch_mm")
         layout.operator(Op.EYEBOX, text="Look from All Positions", icon="LIGHTPROBE_VOLUME")
         facts = eyebox_of(scene)
         if facts is not None:
@@ -97,6 +96,4 @@ def _draw_age(
     wrapped(layout, context, f"Last result. {words}")
 
 
-register, unregister = class_registrars(
-    panel_classes((SIDEBAR, SCENE), (Study, EyeboxStudy, AccuracyStudy))
-)
+register, unregister = panel_registrars((SIDEBAR, SCENE), (Study, EyeboxStudy, AccuracyStudy))

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import bpy
 
 from ..facts.device import Line
+from ..wording import in_plain_words, is_question
 from .base import wrapped
 
 _LABELS_SHARE = 0.4
@@ -31,13 +32,13 @@ def numbers(layout: bpy.types.UILayout, lines: Iterable[Line]) -> None:
 
 
 def problem(layout: bpy.types.UILayout, context: bpy.types.Context, words: str) -> None:
-    """Show what is wrong, in red, where it is wrong.
+    """Show what is wrong, in red, where it is wrong; what was not chosen yet is no fault.
 
     Args:
         layout: Where.
         context: Of the panel.
-        words: One sentence.
+        words: One sentence, as messages have it.
     """
     box = layout.box()
-    box.alert = True
-    wrapped(box, context, words, "ERROR")
+    box.alert = not is_question(words)
+    wrapped(box, context, in_plain_words(words), "ERROR" if box.alert else "INFO")
