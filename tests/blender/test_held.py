@@ -12,9 +12,11 @@ import bpy
 import pytest
 
 from hoe_addon import resources
+from hoe_addon.blender.add.presets import add_scene
 from hoe_addon.blender.build.device import DeviceScene, build_device
 from hoe_addon.blender.document.held import device_of, document_of, spectrum_of, whole
 from hoe_addon.blender.document.holding import hold
+from hoe_addon.blender.ids import Role
 from hoe_addon.core.errors import SpecError
 from hoe_addon.model.document import load_device, to_document
 from hoe_addon.model.effects import plan_effects
@@ -191,3 +193,10 @@ def test_document_survives_a_file(build: Build, tmp_path: Path) -> None:
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     assert to_document(document_of(bpy.context.scene)) == before
+
+
+def test_element_that_is_no_mesh_is_told(registered: Any) -> None:
+    scene = add_scene("point_lens")
+    scene.hologram.root.hologram.role = Role.DISPLAY
+    with pytest.raises(SpecError, match=r'must be a mesh to be a display; delete it, got "EMPTY"'):
+        document_of(scene)

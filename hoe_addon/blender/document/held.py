@@ -172,6 +172,9 @@ def _guide_document(scene: bpy.types.Scene) -> dict[str, Any]:
 
 
 def _element_document(scene: bpy.types.Scene, item: bpy.types.Object) -> dict[str, Any]:
+    if not isinstance(item.data, bpy.types.Mesh):
+        rule = f"must be a mesh to be a {Role(item.hologram.role).label.lower()}; delete it"
+        raise FieldError(item.name, rule, item.type)
     document = item.hologram.to_document() | places.place(scene, item)
     if item.hologram.role == Role.HOLOGRAM:
         document["hologram"] = _hologram(hologram_slot(item), f"{item.name}.hologram", item)
