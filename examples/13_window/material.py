@@ -24,7 +24,7 @@ def later() -> None:
     if LARGE:
         scroll("VIEW_3D", 7)
     else:
-        scroll("PROPERTIES", 21)
+        scroll("PROPERTIES", 9)
 
 
 take(
