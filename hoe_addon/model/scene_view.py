@@ -156,7 +156,8 @@ def chief_ray(
         return local[:, :2] - along[:, :2] * (local[:, 2:] / along[:, 2:])
 
     toward = as_float(element.position_mm) - pupil
-    aim: FloatArray = as_float(toward[:2] / -toward[2])
+    with np.errstate(divide="ignore", invalid="ignore"):  # nothing aims at what stands beside it
+        aim: FloatArray = as_float(toward[:2] / -toward[2])
     for _ in range(_ROUNDS):
         missed = missed_by(aim + _STEP * np.array([[0, 0], [1, 0], [0, 1]]))
         if not np.all(np.isfinite(missed)):

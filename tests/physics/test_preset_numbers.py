@@ -142,3 +142,12 @@ def test_no_ray_through_a_window_that_is_not_there() -> None:
     sight = scene("holographic_sight", "elements.window.position_mm=[0, 0, 220]")
     with pytest.raises(SpecError, match="reticle: no ray from the pupil gets there through window"):
         chief_ray(sight, "window", "reticle", (0.0, 0.0, 0.0), 640.0)
+
+
+@pytest.mark.filterwarnings("error")
+def test_no_ray_is_aimed_at_what_stands_beside_the_pupil() -> None:
+    sight = load_device("holographic_sight")
+    assert isinstance(sight, SceneSpec)
+    beside = (100.0, 0.0, sight.hologram("window").position_mm[2])
+    with pytest.raises(SpecError):
+        chief_ray(sight, "window", "reticle", beside, 640.0)

@@ -14,6 +14,7 @@ from hoe_addon.blender.document.held import document_of
 from hoe_addon.blender.ids import DeviceKind
 from hoe_addon.blender.job_files import JobKind
 from hoe_addon.model.document import load_device
+from hoe_addon.ui.facts import study
 from hoe_addon.ui.facts.device import plan_digest
 from hoe_addon.ui.facts.scenes import DEVICE_FACTS
 from hoe_addon.ui.facts.study import accuracy_of, eyebox_of, keep_result
@@ -142,3 +143,21 @@ def test_eyebox_is_for_light_guides(guide: Any) -> None:
     guide.hologram.kind = DeviceKind.SCENE
     assert draw(bpy.types.HOE_PT_study_eyebox_sidebar) is None
     assert Op.ACCURACY in drawn("study_accuracy").operators()
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "words"),
+    [
+        (187.04, 0.21, "187.0 ± 0.2"),
+        (19.871, 0.0387, "19.87 ± 0.04"),
+        (400.0, 4.0, "400 ± 4"),
+        (1234.5, 37.0, "1234 ± 37"),
+        (9.99, 0.0961, "10.0 ± 0.1"),
+        (10.66, None, "10.7"),
+        (0.0, 0.0, "0"),
+    ],
+)
+def test_number_and_error_have_the_same_digits(
+    value: float, error: float | None, words: str
+) -> None:
+    assert study._with_error(value, error) == words

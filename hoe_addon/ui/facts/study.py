@@ -36,7 +36,7 @@ class _Position(msgspec.Struct, frozen=True):
 
     def luminance(self) -> str:
         """Its mean luminance with the standard error."""
-        return f"{self.mean_cd_m2:.3g} ± {self.standard_error_cd_m2:.1g} cd/m²"
+        return f"{_with_error(self.mean_cd_m2, self.standard_error_cd_m2)} cd/m²"
 
 
 class _Survey(msgspec.Struct, frozen=True):
@@ -153,9 +153,18 @@ def _eyebox_facts(text: str) -> EyeboxFacts | None:
 
 
 def _percent(share: float, error: float | None) -> str:
-    """A share with its standard error, which results of older versions do not have."""
-    spread = "" if error is None else f" ± {float(f'{error * 100:.1g}'):g}"
-    return f"{share * 100:.0f}{spread} %"
+    return f"{_with_error(share * 100.0, None if error is None else error * 100.0)} %"
+
+
+def _with_error(value: float, error: float | None) -> str:
+    """A number with its standard error, both to the first digit of the error that counts.
+
+    Results of older versions have no error; a black display has none above 0.
+    """
+    if error is None or not error > 0.0:
+        return f"{value:.3g}"
+    digits = min(max(0, -math.floor(math.log10(float(f"{error:.1g}")))), 6)
+    return f"{value:.{digits}f} ± {error:.{digits}f}"
 
 
 def _rows(report: _Survey) -> tuple[tuple[str, ...], ...]:
